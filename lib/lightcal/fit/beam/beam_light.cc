@@ -39,10 +39,10 @@ double SetAngle(double degrees) {
   return std::max(step, std::round(degrees / step) * step);
 }
 
-// Where the draws differ most, in parts of the peak.
+// Where the draws differ most, in parts of the axis: its strength is not the question.
 double MissingAngle(const BeamProfile& profile) {
-  const auto most = std::ranges::max_element(profile.candela_sd);
-  const auto at = static_cast<std::size_t>(most - profile.candela_sd.begin());
+  const auto most = std::ranges::max_element(profile.part_sd);
+  const auto at = static_cast<std::size_t>(most - profile.part_sd.begin());
   return SetAngle(std::min(80.0, profile.gamma_deg[at]));
 }
 
