@@ -132,7 +132,7 @@ Result<IntensityTable> TableOfProfile(const BeamProfile& profile, const std::str
 
 // Of the variance of ln I(0): what is left of it where those of profile.theta are known.
 double VarianceShare(const BeamProfile& profile, std::vector<Eigen::Index> known) {
-  const Eigen::Map<const Eigen::Matrix4d> whole(profile.covariance.data());
+  const Eigen::Map<const Eigen::Matrix4d> whole(profile.whole.covariance.data());
   std::erase_if(known, [&](Eigen::Index k) { return !(whole(k, k) > 0.0); });
   if (known.empty()) return 1.0;
   const Eigen::MatrixXd among = whole(known, known);
@@ -173,38 +173,48 @@ void AddInfluences(const ForwardModel& model, const BeamRows& rows, LightEstimat
 // What a row's direct light would be at the peak of the beam, the meter facing the lamp.
 double FacingDirect(const BeamRow& row, const BeamProfile& profile, double peak_cd) {
   const Vec3 aim{profile.aim[0], profile.aim[1], 1.0};
-  const Vec3 from = row.from_lamp + aim * (profile.theta[1] / Length(aim));
+  const Vec3 from = row.from_lamp + aim * (profile.whole.theta[1] / Length(aim));
   return peak_cd / Dot(from, from);
 }
 
-// On its axis, among its walls.
-LampInRoom InRoom(const BeamProfile& profile, const WallPrior& walls, double ambient_lx) {
+// On its axis, among its walls if any shine.
+LampInRoom InRoom(const BeamMoments& part, const std::optional<WallPrior>& walls,
+                  double ambient_lx) {
   LampInRoom one;
-  one.ln_intensity = profile.theta[0];
-  one.distance_offset_m = profile.theta[1];
+  one.weight = part.share;
+  one.ln_intensity = part.theta[0];
+  one.distance_offset_m = part.theta[1];
   one.ambient_lx = ambient_lx;
-  one.ln_b = profile.theta[2];
-  one.slope = profile.theta[3];
-  one.bend = walls.bend;
-  one.scatter = walls.scatter;
+  if (walls) {
+    one.ln_b = part.theta[2];
+    one.slope = part.theta[3];
+    one.bend = walls->bend;
+    one.scatter = walls->scatter;
+  }
   constexpr std::array<std::size_t, 4> kPlaces = {0, 1, 3, 4};  // of (ln I, d0, E0, ln b, slope)
   for (std::size_t i = 0; i < kPlaces.size(); ++i) {
     for (std::size_t j = 0; j < kPlaces.size(); ++j) {
       one.covariance[kPlaces[i] * LampInRoom::kCount + kPlaces[j]] =
-          profile.covariance[i * kPlaces.size() + j];
+          part.covariance[i * kPlaces.size() + j];
     }
   }
   return one;
+}
+
+// Of the peak, as skew as that of the axis and as much wider as the peak is less sure.
+LnInterval IntervalOfPeak(const Uncertain& axial, double ln_peak, double wider) {
+  return {ln_peak - wider * std::log(axial.value / *axial.low),
+          ln_peak + wider * std::log(*axial.high / axial.value)};
 }
 
 void FillEstimate(const Observations& observations, const BeamRows& rows,
                   const BeamProfile& profile, LightEstimate& out) {
   constexpr std::array<int, 4> kPlaces = {kLnIntensity, kDistanceOffset, kLnWalls, kWallsSlope};
   for (std::size_t i = 0; i < kPlaces.size(); ++i) {
-    out.theta[static_cast<std::size_t>(kPlaces[i])] = profile.theta[i];
+    out.theta[static_cast<std::size_t>(kPlaces[i])] = profile.whole.theta[i];
     for (std::size_t j = 0; j < kPlaces.size(); ++j) {
       out.covariance[static_cast<std::size_t>(kPlaces[i] * kParameters + kPlaces[j])] =
-          profile.covariance[i * kPlaces.size() + j];
+          profile.whole.covariance[i * kPlaces.size() + j];
     }
   }
   const auto most = std::ranges::max_element(profile.candela);
@@ -212,9 +222,14 @@ void FillEstimate(const Observations& observations, const BeamRows& rows,
   const double sd = peak == 0 ? profile.axial_sd_ln : profile.candela_sd[peak] / *most;
   out.theta[kLnIntensity] = std::log(*most);
   out.covariance[0] = sd * sd;
+  out.ln_interval =
+      IntervalOfPeak(profile.axial_cd, out.theta[kLnIntensity], sd / profile.axial_sd_ln);
   out.theta[kAmbient] = AmbientOfOff(observations);
-  if (rows.readings.walls) {
-    out.in_room = {InRoom(profile, *rows.readings.walls, out.theta[kAmbient])};
+  // Without walls one normal needs no list.
+  if (rows.readings.walls || profile.by_offset.size() > 1) {
+    for (const BeamMoments& part : profile.by_offset) {
+      out.in_room.push_back(InRoom(part, rows.readings.walls, out.theta[kAmbient]));
+    }
   }
 
   FitDiagnostics& d = out.diagnostics;
@@ -223,12 +238,12 @@ void FillEstimate(const Observations& observations, const BeamRows& rows,
   d.used = static_cast<int>(observations.subtracted.size());
   d.learned = {"intensity", "beam"};
   d.prior = {};
-  const double offset_sd = std::sqrt(std::max(0.0, profile.covariance[5]));
+  const double offset_sd = std::sqrt(std::max(0.0, profile.whole.covariance[5]));
   const bool offset_learned = !rows.readings.offsets.empty() &&
                               offset_sd < kLearnedShare * MatchedOffset(rows.readings.offsets).sd_m;
   (offset_learned ? d.learned : d.prior).emplace_back("distance_offset");
   if (rows.readings.walls) {
-    const bool learned = std::sqrt(std::max(0.0, profile.covariance[10])) <
+    const bool learned = std::sqrt(std::max(0.0, profile.whole.covariance[10])) <
                          kLearnedShare * rows.readings.walls->sd_ln_b;
     (learned ? d.learned : d.prior).emplace_back("room_bounce");
   }
@@ -346,6 +361,7 @@ Result<BeamLight> FitBeamLight(const Observations& observations, const LightDesc
   AddInfluences(model, rows, out.estimate);
   const double added = std::sqrt(std::max(0.0, out.estimate.covariance[0] - own));
   for (LampInRoom& one : out.estimate.in_room) one.covariance[0] += added * added;
+  WidenPeak(factor, added, out.estimate);
   out.flux_lm = profile.flux_lm;
   WidenInLn(out.flux_lm, factor, added);
   out.beam.axial = profile.axial_cd;
@@ -368,6 +384,14 @@ Result<BeamLight> FitBeamLight(const Observations& observations, const LightDesc
     out.aim_sd = Radians(factor * std::max(profile.aim_sd[0], profile.aim_sd[1]));
   }
   return out;
+}
+
+void WidenPeak(double factor, double relative_sd, LightEstimate& estimate) {
+  LnInterval& ln = *estimate.ln_interval;
+  const double middle = estimate.theta[kLnIntensity];
+  Uncertain peak{1.0, 0.0, std::exp(ln.low - middle), std::exp(ln.high - middle)};
+  WidenInLn(peak, factor, relative_sd);
+  ln = {middle + std::log(*peak.low), middle + std::log(*peak.high)};
 }
 
 void FillBeamLight(BeamLight&& found, FittedLight& out) {

@@ -50,6 +50,9 @@ struct BeamLight {
 // for the walls' prior before the fit.
 [[nodiscard]] Radians RoughBeam(const Observations& observations, const LightDescription& light);
 
+// The interval of its peak, by `factor` and by what adds to its logarithm.
+void WidenPeak(double factor, double relative_sd, LightEstimate& estimate);
+
 // What was found beside intensity, offset and diagnostics.
 void FillBeamLight(BeamLight&& found, FittedLight& out);
 

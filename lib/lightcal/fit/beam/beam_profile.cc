@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <random>
 #include <utility>
@@ -189,6 +190,43 @@ MeanAndSd OverDraws(const std::vector<BeamDraw>& draws, const Of& of) {
   return {mean, std::sqrt(squares / count)};
 }
 
+// Of beams whose shares need not make 1.
+BeamMoments MomentsOf(const std::vector<SolvedBeam>& beams) {
+  BeamMoments out{0.0};
+  // ln I(0), d0, ln b, slope of each as a linear map of its parameters.
+  std::vector<Eigen::Vector4d> means;
+  std::vector<Eigen::Matrix4d> covariances;
+  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
+  for (const SolvedBeam& one : beams) {
+    Eigen::MatrixXd map = Eigen::MatrixXd::Zero(4, one.theta.size());
+    map.row(0) = one.axial.transpose();
+    map(1, kBeamOffset) = map(2, kBeamLnWalls) = map(3, kBeamWallsSlope) = 1.0;
+    means.emplace_back(one.ln_axial, one.theta[kBeamOffset], one.theta[kBeamLnWalls],
+                       one.theta[kBeamWallsSlope]);
+    covariances.emplace_back(map * one.covariance * map.transpose());
+    mean += one.share * means.back();
+    out.share += one.share;
+  }
+  mean /= out.share;
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    const Eigen::Vector4d off = means[i] - mean;
+    covariance += beams[i].share / out.share * (covariances[i] + off * off.transpose());
+  }
+  std::copy_n(mean.data(), 4, out.theta.begin());
+  std::copy_n(covariance.data(), 16, out.covariance.begin());
+  return out;
+}
+
+std::vector<BeamMoments> MomentsByOffset(const std::vector<SolvedBeam>& beams) {
+  std::map<std::size_t, std::vector<SolvedBeam>> under;
+  for (const SolvedBeam& one : beams) under[one.offset].push_back(one);
+  std::vector<BeamMoments> out;
+  for (const auto& [offset, these] : under) out.push_back(MomentsOf(these));
+  std::ranges::stable_sort(out, std::ranges::greater(), &BeamMoments::share);
+  return out;
+}
+
 }  // namespace
 
 Result<BeamProfile> FitBeamProfile(const BeamReadings& readings, const std::string& light) {
@@ -251,27 +289,9 @@ Result<BeamProfile> FitBeamProfile(const BeamReadings& readings, const std::stri
   out.beam_deg = IntervalOf(draws, &BeamDraw::beam_deg);
   out.field_deg = IntervalOf(draws, &BeamDraw::field_deg);
 
-  // ln I(0), d0, ln b, slope of each as a linear map of its parameters.
-  std::vector<Eigen::Vector4d> means;
-  std::vector<Eigen::Matrix4d> covariances;
-  Eigen::Vector4d mean = Eigen::Vector4d::Zero();
-  for (const SolvedBeam& one : beams) {
-    Eigen::MatrixXd map = Eigen::MatrixXd::Zero(4, one.theta.size());
-    map.row(0) = one.axial.transpose();
-    map(1, kBeamOffset) = map(2, kBeamLnWalls) = map(3, kBeamWallsSlope) = 1.0;
-    means.emplace_back(one.ln_axial, one.theta[kBeamOffset], one.theta[kBeamLnWalls],
-                       one.theta[kBeamWallsSlope]);
-    covariances.emplace_back(map * one.covariance * map.transpose());
-    mean += one.share * means.back();
-  }
-  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();
-  for (std::size_t i = 0; i < beams.size(); ++i) {
-    const Eigen::Vector4d off = means[i] - mean;
-    covariance += beams[i].share * (covariances[i] + off * off.transpose());
-  }
-  mean[0] = std::log(middle);
-  std::copy_n(mean.data(), 4, out.theta.begin());
-  std::copy_n(covariance.data(), 16, out.covariance.begin());
+  out.whole = MomentsOf(beams);
+  out.whole.theta[0] = std::log(middle);
+  out.by_offset = MomentsByOffset(beams);
   for (std::size_t k = 0; k < 2; ++k) {
     const auto at = static_cast<Eigen::Index>(kBeamAimX + k);
     double variance = 0.0;

@@ -37,6 +37,13 @@ struct BeamDraw {
   std::vector<double> candela;  // at the profile's angles
 };
 
+// (ln I(0), d0, ln b, slope) of a mixture, their covariance, and its share of all.
+struct BeamMoments {
+  double share = 1.0;
+  std::array<double, 4> theta{};
+  std::array<double, 16> covariance{};
+};
+
 struct BeamProfile {
   std::vector<double> gamma_deg;  // 0 to 90
   std::vector<double> candela;    // mean of the draws, axial_cd at 0
@@ -48,9 +55,8 @@ struct BeamProfile {
   std::string family;                     // of the largest share
   double monotone_share = 0.0;            // of the smooth curve's draws, after evidence
   std::array<double, 2> aim{}, aim_sd{};  // tilts found
-  // (ln I(0), d0, ln b, slope) of the mixture, and their covariance.
-  std::array<double, 4> theta{};
-  std::array<double, 16> covariance{};
+  BeamMoments whole;
+  std::vector<BeamMoments> by_offset;  // of each that the lamp may have, likeliest first
   std::vector<double> predicted_lx, walls_lx, gamma_rad;  // beside the rows, of the likeliest
   double chi2 = 0.0;                                      // of the rows, of the likeliest
   double degrees_of_freedom = 0.0;  // rows minus the directions that the readings told

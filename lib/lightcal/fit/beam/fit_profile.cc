@@ -25,6 +25,7 @@ namespace {
 // Calibration is one factor on every reading.
 void WidenBeam(double calibration, BeamLight& found) {
   AddCalibration(calibration, found.estimate);
+  WidenPeak(1.0, calibration, found.estimate);
   for (LampInRoom& one : found.estimate.in_room) one.covariance[0] += calibration * calibration;
   WidenInLn(found.flux_lm, 1.0, calibration);
   WidenInLn(*found.beam.axial, 1.0, calibration);

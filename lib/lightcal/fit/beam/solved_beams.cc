@@ -294,13 +294,16 @@ std::vector<SolvedBeam> SolveBeams(const BeamReadings& stated) {
     for (const double q : {0.3, 0.9, 1.6}) powers.push_back({at[0], q});
   }
   std::vector<SolvedBeam> out;
-  const auto add = [&out](std::optional<SolvedBeam>&& solved) {
-    if (solved) out.push_back(*std::move(solved));
-  };
   std::vector<const OffsetPart*> offsets;
   for (const OffsetPart& part : readings.offsets) offsets.push_back(&part);
   if (offsets.empty()) offsets.push_back(nullptr);
-  for (const OffsetPart* offset : offsets) {
+  for (std::size_t at = 0; at < offsets.size(); ++at) {
+    const OffsetPart* offset = offsets[at];
+    const auto add = [&out, at](std::optional<SolvedBeam>&& solved) {
+      if (!solved) return;
+      solved->offset = at;
+      out.push_back(*std::move(solved));
+    };
     if (readings.may_be_even) {
       add(SolveFamily(readings, offset, 2.0, {BeamFamily::kEven, from}, 0.0, {{}}));
     }

@@ -3,6 +3,7 @@
 // Internal to this room.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct SolvedBeam {
   double ln_axial = 0.0;
   Eigen::VectorXd axial;  // how ln I(0) goes with theta
   double ln_probability = -std::numeric_limits<double>::infinity();
-  double share = 0.0;  // of all
+  double share = 0.0;      // of all
+  std::size_t offset = 0;  // of the readings' offsets, the one it was solved under
   Eigen::VectorXd theta;
   Eigen::MatrixXd covariance;
   Eigen::MatrixXd root;           // covariance = root root'
