@@ -147,7 +147,7 @@ std::vector<WallHypothesis> PlacesOf(const Family& family, std::optional<double>
     beside.ln_b += more_ln_b;
     beside.sd_ln_b = std::hypot(beside.sd_ln_b, 0.15);
     beside.slope = slope;
-    beside.sd_slope = bulb ? 0.45 : 0.60;
+    beside.sd_slope = bulb ? 0.25 : 0.60;
     return beside;
   };
   const WallPrior near = bulb ? beside_walls(0.34, -1.51) : beside_walls(0.15, -0.96);
