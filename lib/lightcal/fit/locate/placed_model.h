@@ -2,8 +2,6 @@
 // One row of the problem whose lamp stands at an unknown place, and the law its cost follows.
 #pragma once
 
-#include <ceres/jet.h>
-
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -91,6 +89,14 @@ template <class T>
   return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
+// An automatic-differentiation scalar like T with three derivatives.
+template <class T>
+struct ByPlaceOf;
+template <template <class, int> class Jet, class Number, int kCount>
+struct ByPlaceOf<Jet<Number, kCount>> {
+  using type = Jet<Number, 3>;
+};
+
 // Of the whole face, exactly, at a place in its own frame; the meter faces it where no normal is
 // given. Only the place depends on theta: three derivatives, which the chain rule carries on, cost
 // a third of all.
@@ -110,7 +116,7 @@ template <class T>
   if constexpr (std::is_same_v<T, double>) {
     return lux(at);
   } else {
-    using ByPlace = ceres::Jet<double, 3>;
+    using ByPlace = typename ByPlaceOf<T>::type;
     const ByPlace here =
         lux(Vec3Of<ByPlace>{ByPlace(at[0].a, 0), ByPlace(at[1].a, 1), ByPlace(at[2].a, 2)});
     T out(here.a);
