@@ -346,23 +346,28 @@ Result<LampLocation> LocateLamp(const Observations& observations, const LightDes
                    "no place of the lamp explains these readings: check that each normal points "
                    "to the side of the meter that sees the lamp");
   }
-  if (all.lit < kFewestPlacedReadings)
-    return RefuseLayout(kept.problem, kept.solutions, light.name);
+  // One reading more frees again the ambient light that was held for want of it.
+  const auto refuse_layout = [&] {
+    PlacedProblem asked = kept.problem;
+    asked.estimation.rules[kPlacedAmbient] = all.estimation.rules[kPlacedAmbient];
+    return RefuseLayout(asked, kept.solutions, light.name);
+  };
+  if (all.lit < kFewestPlacedReadings) return refuse_layout();
   while (RejectOne(kept)) {
   }
   if (OnOneCircleExactly(kept.problem) && !HasDistanceRow(kept.problem.estimation)) {
-    return RefuseLayout(kept.problem, kept.solutions, light.name);
+    return refuse_layout();
   }
   const std::vector<PossiblePlace> places =
       PossiblePlaces(kept.problem, kept.solutions, model.walls);
-  if (places.empty()) return RefuseLayout(kept.problem, kept.solutions, light.name);
+  if (places.empty()) return refuse_layout();
   const std::vector<PlacedMode>& modes = places.front().modes;
   kept.problem.estimation = modes.front().estimation;
   kept.solutions = SolutionsOf(places);
   const PlacedEstimation& estimation = kept.problem.estimation;
   const double condition = PlacedCondition(estimation, modes.front().theta);
   if (!(condition <= kLargestCondition)) {
-    return RefuseLayout(kept.problem, kept.solutions, light.name);
+    return refuse_layout();
   }
   if (places.size() > 1) return RefuseMirror(kept.problem, kept.solutions, light.name);
 
@@ -382,7 +387,7 @@ Result<LampLocation> LocateLamp(const Observations& observations, const LightDes
   auto mixed = MixedWith(modes, uncertainty);
   if (!mixed) return Propagate(std::move(mixed));
   if (TooVague(estimation, mixed->theta, mixed->covariance)) {
-    return RefuseLayout(kept.problem, kept.solutions, light.name);
+    return refuse_layout();
   }
   out.estimate.variance_parts = PartsOf(modes, uncertainty, *mixed);
   out.estimate.ambient_free = estimation.rules[kPlacedAmbient].free;

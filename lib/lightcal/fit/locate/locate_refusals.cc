@@ -13,16 +13,23 @@
 namespace lightcal::fit {
 namespace {
 
-constexpr std::size_t kMostFamily = 6;
+constexpr std::size_t kMostFamily = 10;
 constexpr double kVague_m = 5.0;  // u95 that is no advice beside a better one
 
-// One of each cluster of solutions that the readings allow, where a lamp of a room may be.
-std::vector<PlacedTheta> FamilyOf(const std::vector<PlacedSolution>& solutions) {
+// One of each cluster of solutions that the readings allow, where a lamp of a room may be. Where
+// they leave a line of places open, the search ends anywhere on it: places along it stand for all.
+std::vector<PlacedTheta> FamilyOf(const PlacedProblem& problem,
+                                  const std::vector<PlacedSolution>& found) {
   constexpr double kNearest = 0.3;  // in extents of the layout
   constexpr double kFarthest = 5.0;
   std::vector<PlacedTheta> out;
+  std::vector<PlacedSolution> solutions = found;
+  const double least = found.empty() ? 0.0 : found.front().chi_squared;
+  if (problem.lit >= kFewestPlacedReadings) {
+    std::ranges::copy(OpenPlaces(problem, least), std::back_inserter(solutions));
+  }
   for (const PlacedSolution& s : solutions) {
-    if (s.chi_squared > solutions.front().chi_squared + kAllowedChiSquared) break;
+    if (s.chi_squared > least + kAllowedChiSquared) continue;
     const bool known = std::ranges::any_of(
         out, [&](const PlacedTheta& other) { return AtOnePlace(s.theta, other); });
     if (!known) out.push_back(s.theta);
@@ -128,7 +135,7 @@ bool OnOneCircleExactly(const PlacedProblem& problem) {
 tl::unexpected<Error> RefuseLayout(const PlacedProblem& problem,
                                    const std::vector<PlacedSolution>& solutions,
                                    const std::string& light) {
-  const std::string cure = CureText(problem, FamilyOf(solutions), false);
+  const std::string cure = CureText(problem, FamilyOf(problem, solutions), false);
   if (problem.lit < kFewestPlacedReadings) {
     return Refused("position_unknown", light,
                    "readings give position_m, but the lamp has none, and it takes four readings, "

@@ -2,6 +2,7 @@
 #include "lightcal/fit/locate/locate_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lightcal/fit/locate/placed_starts.h"
@@ -262,6 +263,26 @@ std::vector<PlacedSolution> SearchPlace(const PlacedProblem& problem) {
     if (!known) places.push_back(s.theta);
   }
   return SolveFrom(problem.estimation, places);
+}
+
+std::vector<PlacedSolution> OpenPlaces(const PlacedProblem& problem, double least) {
+  // People read within about as far of a lamp's foot as it hangs high, in extents of the layout.
+  constexpr std::array<double, 5> kUsual = {0.7, 1.0, 1.5, 2.0, 3.0};
+  constexpr double kAbout = 0.3;  // of that distance: the readings say which way to go
+  std::vector<PlacedSolution> out;
+  for (const double extents : kUsual) {
+    const auto start = BestStartAt(problem.estimation, extents, problem.ambient_start);
+    if (!start) continue;
+    PlacedEstimation about = problem.estimation;
+    for (int k = kPlacedX; k <= kPlacedZ; ++k) {
+      about.rules[k] = {true, (*start)[k], kAbout * extents};
+    }
+    const auto theta = SolvePlaced(about, *start);
+    if (!theta) continue;
+    const double chi_squared = PlacedChiSquared(problem.estimation, *theta);
+    if (chi_squared <= least + ChiSquared95(1)) out.push_back({*theta, chi_squared});
+  }
+  return out;
 }
 
 }  // namespace lightcal::fit

@@ -224,4 +224,18 @@ std::vector<PlacedTheta> ScanPlacedStarts(PlacedEstimation estimation, double am
   return starts;
 }
 
+std::optional<PlacedTheta> BestStartAt(PlacedEstimation estimation, double extents,
+                                       double ambient) {
+  for (PlacedRow& row : estimation.rows) row.face.reset();
+  const Layout layout = LayoutOf(estimation.rows);
+  ScanPoint best;
+  for (int i = 0; i < kDirections; ++i) {
+    const Vec3 lamp = layout.middle + Direction(i) * (extents * layout.extent);
+    const ScanPoint point = Evaluate(estimation, lamp, ambient);
+    if (point.chi_squared < best.chi_squared) best = point;
+  }
+  if (!std::isfinite(best.chi_squared)) return std::nullopt;
+  return ThetaOf(estimation, std::exp(best.ln_intensity), best.lamp, ambient);
+}
+
 }  // namespace lightcal::fit

@@ -39,6 +39,10 @@ struct CommonPlane {
 [[nodiscard]] std::vector<PlacedTheta> ScanPlacedStarts(PlacedEstimation estimation,
                                                         double ambient);
 
+// The best of such a scan at one distance, in extents of the layout.
+[[nodiscard]] std::optional<PlacedTheta> BestStartAt(PlacedEstimation estimation, double extents,
+                                                     double ambient);
+
 // Middle of the meters' positions and the root of their mean squared distance from it (1 where all
 // stand in one place).
 struct Layout {
