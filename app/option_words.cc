@@ -39,6 +39,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"import.columns", "--columns distance_m,illuminance_lx"},
     {"light.aim", "aim"},
     {"light.beam", "beam_deg"},
+    {"light.fixture", "fixture"},
     {"light.off_axis_sigma", "off_axis_sigma_deg"},
     {"match.reach", "--reach"},
     {"merge.align", "--align"},

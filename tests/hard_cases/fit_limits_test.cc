@@ -77,20 +77,21 @@ TEST(HardCaseF, F20FaintAndFierceLampsAreOneProblem) {
 }
 
 TEST(HardCaseF, F21AnOffsetAtItsBoundIsSaid) {
-  // d0 = -0.95 m where 1 m is the nearest reading.
+  // d0 = -0.95 of the nearest reading's distance.
   for (const char* room : {"", kDark}) {
-    const auto run = [&](const std::vector<double>& distances) {
+    const auto run = [&](double nearest, const std::vector<double>& distances) {
       KeySession session("point", room);
       for (const double d : distances) {
-        session.At(d, 100.0 / ((d - 0.95) * (d - 0.95)), "sigma_relative = 0.001");
+        session.At(nearest * d, 100.0 / ((d - 0.95) * (d - 0.95)), "sigma_relative = 0.001");
       }
       return session.Run();
     };
-    const Answer two = run({1.0, 1.1});
+    const Answer two = run(0.2, {1.0, 1.1});
     ExpectWarned(two, "bound_active");
-    EXPECT_NEAR(Value(two, "distance_offset_m"), -0.9, 1e-3);
-    // Three or more distances contradict the bound.
-    ExpectRefused(run({1.0, 1.1, 1.5, 2.0}), "model_misfit");
+    EXPECT_NEAR(Value(two, "distance_offset_m"), -0.18, 1e-3);
+    // No lamp starts so far before its mount, and three or more distances contradict the bound.
+    ExpectRefused(run(1.0, {1.0, 1.1}), "model_misfit");
+    ExpectRefused(run(1.0, {1.0, 1.1, 1.5, 2.0}), "model_misfit");
   }
 }
 

@@ -298,6 +298,18 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
     if (!covariance) return Propagate(std::move(covariance));
     one.covariance = *covariance;
   }
+  // A card that missed the meter is cause enough.
+  const bool card_missed =
+      std::ranges::find(out.warnings, "card_missed", &Warning::code) != out.warnings.end();
+  if (model.distance_law && model.judge_misfit && model.choice.reject && !card_missed) {
+    const FoundOffset found{estimate.theta[kDistanceOffset] * prepared.scales.length_m,
+                            SdOf(likeliest.covariance, kDistanceOffset) * prepared.scales.length_m};
+    if (auto starts =
+            CheckOffset(found, model, prepared.distances, observations, light, out.warnings);
+        !starts) {
+      return Propagate(std::move(starts));
+    }
+  }
   if (sampling) {
     Result<SampledEstimate> sampled = SampleEstimate(input, *sampling);
     if (!sampled) return Propagate(std::move(sampled));

@@ -83,7 +83,7 @@ struct LightEstimate {
 //   the mixture by their evidence: its median, its quantiles, its covariance about them. A data
 //   sheet's intensity is a prior that one lamp in twenty is not held by (WithSheet), where
 //   it lies within two standard deviations of the readings' and tells a third as much.
-// Refused: no_valid_readings, over_range (no reading within the meter's range).
+// Refused: no_valid_readings, over_range (no reading within the meter's range), model_misfit.
 [[nodiscard]] Result<LightEstimate> EstimateLight(const Observations& observations,
                                                   const ForwardModel& model,
                                                   const std::string& light,

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,9 @@ constexpr double kLeastProbabilityOfRest = 0.05;
 constexpr double kMostRatio = 3.0;     // of scatter over sigma that an answer is worth having with
 constexpr double kLeastMisfit = 0.04;  // rms in ln E, below which widening is answer enough
 constexpr int kFewestDistances = 3;
+constexpr double kNeverSd = 4.0;  // standard deviations of a fixture's offset
+// Where a softbox starts, measured from its mount, and four standard deviations deeper (fixture.h).
+constexpr double kSoftbox_m = 0.3, kDeepest_m = 0.6;
 constexpr int kFewestRepeats = 3;  // degrees of freedom
 
 // Chi-squared with the priors, and the degrees of freedom: each prior is a row and a parameter.
@@ -178,6 +183,45 @@ std::string CauseOf(const std::vector<ReadAt>& places, bool at_bound, const Esti
   return "check that every reading is of this lamp, in lux, at its distance in metres";
 }
 
+// Of the parts that an offset may come from, the least standard deviations it lies from one.
+double DeviationsFrom(std::span<const OffsetPart> parts, const FoundOffset& found) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const OffsetPart& part : parts) {
+    least =
+        std::min(least, std::abs(found.metres - part.mean_m) / std::hypot(part.sd_m, found.sd_m));
+  }
+  return least;
+}
+
+bool OfAnyFixture(std::span<const OffsetPart> parts) {
+  return std::ranges::equal(parts, OffsetParts(std::nullopt), {}, &OffsetPart::mean_m,
+                            &OffsetPart::mean_m);
+}
+
+// The distance of one of two readings at which the other would be an ordinary lamp's: "; 12.5 lx
+// at 2 m, or 200 lx at 0.25 m, would be".
+std::string DistancesThatSuit(const Observations& observations, double usual_m) {
+  const Observation* near = nullptr;
+  const Observation* far = nullptr;
+  for (const Observation& o : observations.rows) {
+    if (!o.lit || o.over_range || !(o.measured_lx > 0.0)) continue;
+    if (near == nullptr || o.distance_m < near->distance_m) near = &o;
+    if (far == nullptr || o.distance_m > far->distance_m) far = &o;
+  }
+  if (near == nullptr || SameDistance(near->distance_m, far->distance_m)) return {};
+  const auto told = [&](const Observation& wrong, const Observation& right) {
+    const double metres =
+        (right.distance_m + usual_m) * std::sqrt(right.measured_lx / wrong.measured_lx) - usual_m;
+    return RoundedText(wrong.raw_lx, 4) + " lx at " + RoundedText(metres, 2) + " m";
+  };
+  return "; " + told(*far, *near) + ", or " + told(*near, *far) + ", would be an ordinary lamp's";
+}
+
+std::string WhereItStarts(double offset_m) {
+  return RoundedText(std::abs(offset_m), 2) + " m " + (offset_m < 0.0 ? "before" : "behind") +
+         " the point that distances are counted from";
+}
+
 }  // namespace
 
 std::string NameOfReading(const Observation& o) {
@@ -225,6 +269,43 @@ Result<void> CheckMisfit(const RobustEstimate& estimate, const Estimation& all,
   return Refused(
       "model_misfit", light,
       "no lamp gives these readings: " + CauseOf(places, at_bound, all, prepared, observations));
+}
+
+Result<void> CheckOffset(const FoundOffset& found, const ForwardModel& model, int distances,
+                         const Observations& observations, const std::string& light,
+                         Warnings& warnings) {
+  if (!model.fit_offset || model.offsets.empty() || distances < 2) return {};
+  const bool printed =
+      std::ranges::any_of(observations.rows, [](const Observation& o) { return o.data_sheet; });
+  if (printed) return {};
+  const std::span<const OffsetPart> parts = model.offsets;
+  const double metres = std::abs(found.metres);
+  const bool any = OfAnyFixture(parts);
+  const double usual_m = any ? 0.0 : parts.front().mean_m;  // 0: the median of any
+  const bool no_such_lamp = DeviationsFrom(parts, found) > kNeverSd;
+  const bool unconfirmed = distances < kFewestDistances;
+  const bool refused = unconfirmed ? no_such_lamp || (any && metres - 2.0 * found.sd_m > kSoftbox_m)
+                                   : no_such_lamp && metres > kDeepest_m;
+  const std::string softbox =
+      any ? "; of a softbox or a lantern counted from its mount say so by {light.fixture}" : "";
+  if (refused) {
+    std::string cause = BetweenPlaces(observations)
+                            ? std::string(kAskForPlaces)
+                            : "is a distance wrong, or counted from elsewhere on the lamp?";
+    if (unconfirmed) cause += " Read a third distance" + softbox;
+    return Refused("model_misfit", light,
+                   "no lamp gives these readings: their light would have to start " +
+                       WhereItStarts(found.metres) +
+                       (unconfirmed ? DistancesThatSuit(observations, usual_m) : "") + ": " +
+                       cause);
+  }
+  // Most lamps of an unknown fixture.
+  if (!any || !unconfirmed || DeviationsFrom(parts.first(1), found) <= kNeverSd) return {};
+  warnings.push_back(
+      {"prior_conflict", light,
+       "the light starts " + WhereItStarts(found.metres) + ", if both distances are right" +
+           DistancesThatSuit(observations, usual_m) + ": check them, or read a third" + softbox});
+  return {};
 }
 
 }  // namespace lightcal::fit

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "lightcal/core/result.h"
+#include "lightcal/fit/estimate_light.h"
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/fit/model/prepare.h"
 #include "lightcal/fit/model/robust.h"
@@ -34,6 +35,20 @@ inline constexpr std::string_view kAskForPlaces =
 // times: the warning misfit; the interval holds it.
 [[nodiscard]] Result<void> CheckMisfit(const RobustEstimate& estimate, const Estimation& all,
                                        const Prepared& prepared, const Observations& observations,
+                                       const std::string& light, Warnings& warnings);
+
+// Where the light was found to start, and its 1 sigma, metres.
+struct FoundOffset {
+  double metres = 0.0, sd_m = 0.0;
+};
+
+// Refused: model_misfit, where readings at no more than two distances, which any offset suits, ask
+// for one that no such lamp has, four standard deviations from its fixture's, or, of an unknown
+// one, over .3 m: a softbox that nobody called one starts there, but so does a distance that is
+// wrong. At more distances, which bear one another out, only beyond .6 m as well. An unknown
+// fixture's that only a softbox has is told: prior_conflict.
+[[nodiscard]] Result<void> CheckOffset(const FoundOffset& found, const ForwardModel& model,
+                                       int distances, const Observations& observations,
                                        const std::string& light, Warnings& warnings);
 
 }  // namespace lightcal::fit
