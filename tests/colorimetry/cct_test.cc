@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "lightcal/colorimetry/cct_approximations.h"
 #include "lightcal/colorimetry/planckian.h"
 #include "vector_file.h"
 
@@ -167,6 +168,27 @@ TEST(CctUncertainty, MatchesTheSpreadOfDisturbedChromaticities) {
   EXPECT_NEAR(u.sd_mired.value() / std::sqrt(mm), 1.0, 0.02);
   EXPECT_NEAR(u.sd_duv / std::sqrt(dd), 1.0, 0.02);
   EXPECT_NEAR(u.covariance / md, 1.0, 0.1);
+}
+
+// What cct_approximations.h says of them, at the vectors' points of the locus.
+TEST(CctApproximations, AreAsFarOffTheLocusAsTheySay) {
+  int points = 0;
+  for (const auto& row : test::ReadVectors("cct_duv_100.csv")) {
+    if (row.Number("duv") != 0.0) continue;
+    const double t = row.Number("cct_K");
+    const Xy xy{row.Number("x"), row.Number("y")};
+    SCOPED_TRACE(t);
+    const double mccamy = McCamyCct(xy).value() - t;
+    const double hernandez = HernandezAndresCct(xy).value() - t;
+    if (t >= 2856.0 && t <= 6504.0) EXPECT_NEAR(mccamy, 4.5, 5.6);
+    if (t >= 3300.0 && t <= 20000.0) EXPECT_NEAR(hernandez, 0.0, 25.0);
+    if (t == 4000.0) EXPECT_NEAR(mccamy, 8.8, 0.1);  // not within 2 K
+    if (t == 25000.0) EXPECT_NEAR(mccamy, -5500.0, 10.0);
+    if (t == 25000.0) EXPECT_NEAR(hernandez, 33.0, 1.0);
+    if (t == 50000.0) EXPECT_NEAR(hernandez, 719.0, 1.0);
+    ++points;
+  }
+  EXPECT_EQ(points, 20);
 }
 
 // colorimetry.md 4: CIE's five-digit D65 is 6503.03 K, the four-digit one 6504.34 K.

@@ -116,6 +116,21 @@ TEST(HardInputs, F14AMeterInsideTheLampIsRejected) {
   EXPECT_THAT(FitOk(session).fit.rejected, ElementsAre(1));
 }
 
+TEST(HardInputs, AToleranceOrASigmaThatIsNoPartIsRefused) {
+  const Session session = TypedSession({{1, 100}});
+  const FittedLight light = FitOk(session);
+  EXPECT_TRUE(PredictIlluminance(light, Metres(2.0), 0.0).has_value());
+  for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    const auto fitted = FitSession(session, FitSettings{.tolerance_relative = bad});
+    ASSERT_FALSE(fitted.has_value()) << bad;
+    EXPECT_EQ(fitted.error().code, "bad_tolerance");
+    const auto predicted = PredictIlluminance(light, Metres(2.0), bad);
+    ASSERT_FALSE(predicted.has_value()) << bad;
+    EXPECT_EQ(predicted.error().code, "bad_sigma");
+    EXPECT_FALSE(PredictInRoom(light, Metres(2.0), bad).has_value()) << bad;
+  }
+}
+
 TEST(HardInputs, F15MixedCentimetresAreNamed) {
   const Error error =
       FitRefused(TypedSession({{0.5, 192}, {1, 48}, {2, 12}, {150, 21.3}, {300, 5.3}}));

@@ -2,12 +2,14 @@
 #include "lightcal/fit/fit_light.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "lightcal/core/as_one.h"
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/beam/beam_light.h"
 #include "lightcal/fit/beam/fit_profile.h"
 #include "lightcal/fit/beam/stated_beam.h"
@@ -212,6 +214,11 @@ Result<FittedSession> FitSound(const Session& session, FitSettings settings) {
 }  // namespace
 
 Result<FittedSession> FitSession(const Session& session, const FitSettings& settings) {
+  if (!(settings.tolerance_relative >= 0.0) || !std::isfinite(settings.tolerance_relative)) {
+    return Refused("bad_tolerance", session.name,
+                   "effects are left off within a part of the light, 0 or more, not " +
+                       ShortestText(settings.tolerance_relative));
+  }
   if (auto sound = CheckSession(session); !sound) return Propagate(std::move(sound));
   const std::optional<Session> sound = SetFaultyAside(session);
   return FitSound(sound ? *sound : session, settings);

@@ -50,7 +50,13 @@ double OffsetOf(const FittedLight& light) {
 }
 
 // Of a meter that faces a lamp of some strength and stands before its effective source.
-Result<fit::ReadingRow> RowBefore(const FittedLight& light, Metres distance) {
+Result<fit::ReadingRow> RowBefore(const FittedLight& light, Metres distance,
+                                  double sigma_relative) {
+  if (!(sigma_relative >= 0.0) || !std::isfinite(sigma_relative)) {
+    return Refused("bad_sigma", light.name,
+                   "a reading scatters by a part of itself, 0 or more, not by " +
+                       ShortestText(sigma_relative));
+  }
   const std::optional<Uncertain>& strength = StrengthOf(light);
   if (!strength || !(strength->value > 0.0)) {
     return Refused("no_intensity", light.name, "the light has no intensity to predict from");
@@ -178,7 +184,7 @@ PredictedParts PredictParts(const FittedLight& light, Metres distance) {
 
 Result<PredictedIlluminance> PredictIlluminance(const FittedLight& light, Metres distance,
                                                 double sigma_relative) {
-  const auto row = RowBefore(light, distance);
+  const auto row = RowBefore(light, distance, sigma_relative);
   if (!row) return tl::unexpected(row.error());
   if (light.in_room.size() > 1 && !light.illuminance_lx) {
     std::vector<NormalPart> alone;
@@ -202,7 +208,9 @@ Result<PredictedIlluminance> PredictIlluminance(const FittedLight& light, Metres
 
 Result<std::optional<IlluminanceInRoom>> PredictInRoom(const FittedLight& light, Metres distance,
                                                        double sigma_relative) {
-  if (auto before = RowBefore(light, distance); !before) return Propagate(std::move(before));
+  if (auto before = RowBefore(light, distance, sigma_relative); !before) {
+    return Propagate(std::move(before));
+  }
   const fit::PredictedParts parts = fit::PredictParts(light, distance);
   if (parts.walls.empty()) return std::optional<IlluminanceInRoom>();
   return IlluminanceInRoom{UncertainFromLogMixture(parts.whole),
