@@ -30,7 +30,7 @@ DOORS = [
      r"lib/lightcal/fit/|imaging/(scene/board_camera|panorama/(solve_aims|aim_bundle))\.cc$"),
     (r"ceres/(?!(tiny_solver|jet)\.h)", r"lib/lightcal/fit/"),
     (r"Eigen/",  # of imaging's headers one, which is not installed
-     r"lib/lightcal/(fit|imaging)/.*\.cc$|lib/lightcal/fit/|imaging/panorama/aim_bundle\.h$|^app/wasm/overlay/ceres/"),
+     r"lib/lightcal/(fit|imaging)/.*\.cc$|lib/lightcal/fit/|imaging/panorama/aim_bundle\.h$|imaging/bracket/code_pairs\.h$|^app/wasm/overlay/ceres/"),
     (r"OpenImageIO/|libraw/|OpenEXR/", r"devices/lightcal_devices/captures/"),
     (r"opencv2/", r"lib/lightcal/imaging/"),
     (r"nlohmann/", r"(_codec\.cc$)|(lib/lightcal/presets/.*\.cc$)|(^app/)"),

@@ -198,10 +198,11 @@ TEST(HardCaseF, F16FeetAndFootcandlesAreAskedAbout) {
 }
 
 TEST(HardCaseF, F17AmbientAHundredTimesTheLampIsWide) {
-  const auto run = [](const char* lines) {
+  const std::string now = "time = \"2026-03-01T10:00:00Z\"";  // no daylight drifts between them
+  const auto run = [&](const char* lines) {
     return KeySession("point", lines)
-        .At(1, 101, "sigma_relative = 0.001")
-        .At(1, 100, "shadow_card = true\nsigma_relative = 0.001")
+        .At(1, 101, "sigma_relative = 0.001\n" + now)
+        .At(1, 100, "shadow_card = true\nsigma_relative = 0.001\n" + now)
         .Run();
   };
   const Answer answer = run(kDarkBulb);

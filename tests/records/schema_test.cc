@@ -259,7 +259,8 @@ TEST(Schemas, LightSchemaAndWriterKnowTheSameKeys) {
   const TempDir dir;
   std::string text = LightFileToJson(test::FullLightFile()).value();
   text.replace(0, 1, R"({"warnings": [{"code":"a","subject":"b","message":"c"}],"next_step":"a",
-      "next_steps":{"key":"a"},"files":["a"],"through":{},"predictions":[{}],"minutes":[{}],)");
+      "next_steps":{"key":"a"},"files":["a"],"through":{},"predictions":[{}],"minutes":[{}],
+      "type_in":[{"engine":"a","field":"b","value":"c","unit":"d","note":"e"}],)");
   EXPECT_TRUE(LightFileFromJson(text, "light.json"));
   ExpectValid("light", {"--every-key", dir.Write("light.json", text)});
 }

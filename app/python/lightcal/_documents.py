@@ -137,10 +137,21 @@ class Prediction(TypedDict, total=False):
     walls_lx: Uncertain
 
 
+class TypeIn(TypedDict, total=False):
+    """What to type into one engine; note: its colour, and what else to set."""
+
+    engine: str
+    field: str
+    value: str
+    unit: str
+    note: str
+
+
 class QuickAnswer(LightDocument, total=False):
-    """One lamp; predictions: one a distance asked for."""
+    """One lamp; predictions: one a distance asked for; type_in: one an engine."""
 
     next_step: str
+    type_in: List[TypeIn]
     through: Dict[str, Any]
     predictions: List[Prediction]
     minutes: List[Dict[str, Any]]

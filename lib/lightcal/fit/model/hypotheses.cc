@@ -63,7 +63,8 @@ Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& pre
     const Observation& observation =
         observations.rows[static_cast<std::size_t>(prepared.observation[i])];
     const bool lit_row = row.direct_gain > 0.0;
-    if (lit_row && hypothesis.width_m > 0.0) {
+    // A picture of the lamp itself shows its size, and is summed over it.
+    if (lit_row && hypothesis.width_m > 0.0 && !observation.of_luminance) {
       SourceSize size;
       size.width = Metres(hypothesis.width_m / prepared.scales.length_m);
       size.height = Metres(hypothesis.height_m / prepared.scales.length_m);
