@@ -32,7 +32,8 @@ some = session("some", ("back", "distance_m = 1.0\nilluminance_lx = 50.0"))
 assert [light["name"] for light in answer("fit", some)["lights"]] == ["back"]
 
 # One whose readings are refused, one unread, one read: what is told to type answers.
-odd = session("odd", ("key", "distance_m = 1.0\nilluminance_lx = 0.0"),
+odd = session("odd", ("key", "distance_m = 1.0\nilluminance_lx = 10.0"),
+              ("key", "distance_m = 2.0\nilluminance_lx = 90.0"),
               ("back", "distance_m = 1.0\nilluminance_lx = 50.0"))
 said = run("fit", odd, code=3).stderr
 advice = re.search(r"answered by (--without \S+)", said)

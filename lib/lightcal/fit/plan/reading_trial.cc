@@ -84,17 +84,17 @@ std::optional<ReadingTrial> TryExpected(const KnownSoFar& known, const PlannedRe
 
 namespace {
 
-// The interval of the three trials is the median one, by its width; one that failed leaves all.
+// The interval of the three trials is the median one, by its stops; one that failed leaves all.
 ReadingTrial MedianOf(const std::optional<ReadingTrial>& low, ReadingTrial middle,
                       const std::optional<ReadingTrial>& high) {
   constexpr double kAll = std::numeric_limits<double>::infinity();
   const auto widths = [&](const std::optional<ReadingTrial>& trial) {
-    return trial ? std::pair(trial->planned.u95_relative, trial->planned.u95_stops)
+    return trial ? std::pair(trial->planned.u95_stops, trial->planned.u95_relative)
                  : std::pair(kAll, kAll);
   };
   std::array<std::pair<double, double>, 3> all = {widths(low), widths(middle), widths(high)};
   std::ranges::sort(all);
-  std::tie(middle.planned.u95_relative, middle.planned.u95_stops) = all[1];
+  std::tie(middle.planned.u95_stops, middle.planned.u95_relative) = all[1];
   return middle;
 }
 

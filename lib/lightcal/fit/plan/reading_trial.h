@@ -53,8 +53,9 @@ struct ReadingTrial {
 [[nodiscard]] bool IsNearlySettled(const ReadingTrial& trial);
 
 // What settling adds at most to the logarithm by which a nearly settled reading shortens the
-// interval: .139 among 865 that were tried; those further off, up to .69.
-inline constexpr double kMostBySettling = 0.15;
+// interval: .139 among 865 that were tried, .4 of a lamp whose start one reading tells; those
+// further off, up to .69.
+inline constexpr double kMostBySettling = 0.45;
 
 // What the reading leaves open, whatever it shows: the median of what each of `likely` leaves, one
 // that no fit explains leaving all. Of a lamp that one normal says, at the illuminance at which the
