@@ -137,6 +137,7 @@ template <class T>
                                         (*row.position)[1] - theta[kPlacedY],
                                         (*row.position)[2] - theta[kPlacedZ]});
     }
+    if (!(at[2] > T(1e-6) * r)) return false;  // behind it, or so near its plane that sums cancel
     *direct = row.direct_gain * LuxOfFace(*row.face, at, row.position ? row.normal : std::nullopt);
     return *direct > T(0.0);
   }
