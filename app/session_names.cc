@@ -21,8 +21,7 @@ Result<void> CheckNames(const Session& session, const std::string& light,
                    "the session has no such light" + DidYouMean(light, session.lights));
   }
   const bool meter_known =
-      meter.empty() || meter == kDataSheetMeter ||
-      std::ranges::find(session.meters, meter, &MeterDescription::name) != session.meters.end();
+      meter.empty() || meter == kDataSheetMeter || FindMeter(session, meter) != nullptr;
   if (!meter_known) {
     const std::string instead = DidYouMean(meter, session.meters);
     return Refused(

@@ -59,7 +59,8 @@ std::string ReadingsTable(const ImportPlan& plan) {
     }
   }
   std::string text = TextTable(
-      {"file", "format", "light", "distance or place", "illuminance", "CCT", "Duv", "spectrum"}, rows);
+      {"file", "format", "light", "distance or place", "illuminance", "CCT", "Duv", "spectrum"},
+      rows);
   if (more > 0) text += "... and " + std::to_string(more) + " more\n";
   return text;
 }

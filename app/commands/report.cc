@@ -15,6 +15,7 @@
 #include "lightcal/core/file_name.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
+#include "lightcal/records/keep_lights.h"
 #include "lightcal/records/light_codec.h"
 #include "lightcal/report/page.h"
 #include "lightcal/report/plots.h"
@@ -145,11 +146,8 @@ Result<void> KeepAsked(const CalibrationOptions& asked, LightFile& file) {
       if (auto known = CheckLight(option, name, file); !known) return known;
     }
   }
-  const auto in = [](const std::vector<std::string>& names, const FittedLight& light) {
-    return std::ranges::find(names, light.name) != names.end();
-  };
   std::erase_if(file.lights, [&](const FittedLight& light) {
-    return in(asked.without, light) || (!asked.lights.empty() && !in(asked.lights, light));
+    return !IsAsked(light.name, asked.lights, asked.without);
   });
   return {};
 }

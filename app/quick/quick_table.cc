@@ -268,10 +268,9 @@ std::string CsvOf(const std::deque<TableLamp>& lamps) {
     const Uncertain& u = *strength.value;
     const auto stops = HalfWidthStops(u);
     const auto number = [](double value) { return RoundedText(value, 6); };
-    text += "," + number(u.value) + "," + std::string(strength.unit) + "," +
-            number(u.low.value_or(u.value - u.u95)) + "," +
-            number(u.high.value_or(u.value + u.u95)) + "," + (stops ? RoundedText(*stops, 3) : "") +
-            "," + (light.color.cct_K ? number(light.color.cct_K->value) : "");
+    text += "," + number(u.value) + "," + std::string(strength.unit) + "," + number(LowEnd(u)) +
+            "," + number(HighEnd(u)) + "," + (stops ? RoundedText(*stops, 3) : "") + "," +
+            (light.color.cct_K ? number(light.color.cct_K->value) : "");
     for (const std::string& engine : engines) {
       const auto figure = std::ranges::find_if(lamp.answer->figures, [&](const EngineFigure& f) {
         return engine == f.engine + (f.unit.empty() ? "" : " (" + f.unit + ")");

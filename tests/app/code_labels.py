@@ -9,6 +9,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
 from built_command import HOME, answer, refused  # noqa: E402
+from code_camera import srgb  # noqa: E402
 from plain_exr import read_exr  # noqa: E402
 from plain_png import write_png  # noqa: E402
 
@@ -16,10 +17,6 @@ SIDE, ACROSS, DOWN = 24, 8, 5
 ELECTRONS, READ_NOISE = 30_000.0, 6.0  # at the highest code
 FIVE = [4.0**i / 1024 for i in range(5)]
 THREE = [1 / 500, 1 / 60, 1 / 8]
-
-
-def srgb(signal):
-    return np.where(signal <= 0.0031308, 12.92 * signal, 1.055 * signal ** (1 / 2.4) - 0.055)
 
 
 def scene(rng):

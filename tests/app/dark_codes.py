@@ -8,16 +8,11 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
 from built_command import HOME, answer  # noqa: E402
+from code_camera import shoot, srgb  # noqa: E402
 from plain_exr import read_exr  # noqa: E402
-from plain_png import write_png  # noqa: E402
 
-ELECTRONS, READ_NOISE = 20_000.0, 3.0  # at the highest code
 TIMES = [1 / 500, 1 / 60, 1 / 8]
 FULL = 600.0  # light that the longest frame's highest code shows
-
-
-def srgb(signal):
-    return np.where(signal <= 0.0031308, 12.92 * signal, 1.055 * signal ** (1 / 2.4) - 0.055)
 
 
 def power(signal):
@@ -26,16 +21,6 @@ def power(signal):
 
 def film(signal):
     return signal**0.9 / (signal**0.9 + 0.18) * 1.18
-
-
-def shoot(name, light, signals_per_light, curve, rng):
-    files = []
-    for i, scale in enumerate(signals_per_light):
-        electrons = rng.poisson(np.minimum(light * scale, 2) * ELECTRONS) + rng.normal(0, READ_NOISE, light.shape)
-        codes = np.round(255 * curve(np.clip(electrons / ELECTRONS, 0, 1))).astype(np.uint8)
-        files.append(HOME / f"{name}{i}.png")
-        write_png(files[-1], codes if codes.ndim == 3 else np.repeat(codes[..., None], 3, -1))
-    return files
 
 
 def plane(path):

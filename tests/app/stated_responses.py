@@ -9,6 +9,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
 from built_command import HOME, answer, refused  # noqa: E402
+from code_camera import srgb  # noqa: E402
 from plain_exr import read_exr  # noqa: E402
 from plain_png import write_png  # noqa: E402
 
@@ -20,10 +21,6 @@ def s_curve(signal):
     """What a camera's own style makes of light: contrast in the middle, codes of 0 to 1."""
     code = signal ** (1 / 2.2)
     return np.clip(code + 0.06 * np.sin(2 * np.pi * (code - 0.5)), 0, 1)
-
-
-def srgb(signal):
-    return np.where(signal <= 0.0031308, 12.92 * signal, 1.055 * signal ** (1 / 2.4) - 0.055)
 
 
 def patches(rng, low, high):

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "lightcal/calibrate/captures/capture_readings.h"
@@ -59,13 +60,9 @@ Result<void> KeepAsked(const CalibrationSettings& settings, Session& session) {
                      "the session has no such light" + DidYouMean(name, session.lights));
     }
   }
-  const auto asked = [&](const std::string& name) {
-    const auto in = [&](const std::vector<std::string>& names) {
-      return std::ranges::find(names, name) != names.end();
-    };
-    return !in(settings.without) && (settings.lights.empty() || in(settings.lights));
-  };
-  KeepLights(asked, session);
+  KeepLights(
+      [&](const std::string& name) { return IsAsked(name, settings.lights, settings.without); },
+      session);
   return {};
 }
 
@@ -147,10 +144,9 @@ struct Faults {
 };
 
 // What files beyond those that failed would be refused for, as one.
-Error AllFaults(Faults faults, Session session, const Sources& sources,
+Error AllFaults(Faults faults, const Session& sound, const Sources& sources,
                 const CalibrationSettings& settings, Evidence& evidence) {
-  KeepLights([&](const std::string& light) { return !faults.Of(light); }, session);
-  auto walls = MeasureWalls(session, sources, FitSettingsOf(settings), evidence);
+  auto walls = MeasureWalls(sound, sources, FitSettingsOf(settings), evidence);
   if (!walls) faults.all.push_back(std::move(walls).error());
   return AsOne(std::move(faults.all));
 }
@@ -204,13 +200,16 @@ Result<MeasuredSession> Measure(const std::string& path, const Sources& sources,
     auto light = std::ranges::find(session.lights, ball.light, &LightDescription::name);
     if (!light->position_m) light->position_m = ball.position_m;
   }
-  Session whole = session;
-  KeepLights([&](const std::string& light) { return !faults.Of(light); }, whole);
-  auto captured = ReadCaptures(whole, sources, evidence);
+  std::optional<Session> of_sound;  // where some lights are not
+  if (!faults.lights.empty()) {
+    of_sound = session;
+    KeepLights([&](const std::string& light) { return !faults.Of(light); }, *of_sound);
+  }
+  const Session& sound = of_sound ? *of_sound : session;
+  auto captured = ReadCaptures(sound, sources, evidence);
   if (!captured) faults.all.push_back(std::move(captured).error());
   if (!faults.all.empty()) {
-    return tl::unexpected(
-        AllFaults(std::move(faults), std::move(whole), sources, settings, evidence));
+    return tl::unexpected(AllFaults(std::move(faults), sound, sources, settings, evidence));
   }
   session.lights = std::move(captured->lights);
   session.captures = std::move(captured->captures);

@@ -9,9 +9,6 @@
 namespace lightcal {
 namespace {
 
-double LowOf(const Uncertain& u) { return u.low.value_or(u.value - u.u95); }
-double HighOf(const Uncertain& u) { return u.high.value_or(u.value + u.u95); }
-
 // "−20", "+31" of an end over the value.
 std::string Arm(double relative) {
   const std::string digits = RoundedText(100.0 * std::abs(relative), 2);
@@ -23,8 +20,8 @@ std::string Arm(double relative) {
 
 std::string RelativeText(const Uncertain& u) {
   if (!(u.u95 > 0.0) || u.value == 0.0) return "";
-  if (IsEven(u)) return "± " + PercentText(std::abs(0.5 * (HighOf(u) - LowOf(u)) / u.value));
-  return Arm(LowOf(u) / u.value - 1.0) + " … " + Arm(HighOf(u) / u.value - 1.0) + " %";
+  if (IsEven(u)) return "± " + PercentText(std::abs(0.5 * (HighEnd(u) - LowEnd(u)) / u.value));
+  return Arm(LowEnd(u) / u.value - 1.0) + " … " + Arm(HighEnd(u) / u.value - 1.0) + " %";
 }
 
 Uncertain IntervalOfWidths(double u95_relative, double u95_stops) {
@@ -41,10 +38,10 @@ Uncertain IntervalOfFactor(double u95_relative) {
 std::string PlainInterval(const Uncertain& u, const std::string& unit) {
   std::string text = RoundedText(u.value, 4) + " " + unit;
   if (IsEven(u)) {
-    return text + " +- " + PercentText(0.5 * (HighOf(u) - LowOf(u)) / u.value) + " (95 %)";
+    return text + " +- " + PercentText(0.5 * (HighEnd(u) - LowEnd(u)) / u.value) + " (95 %)";
   }
-  return text + ", " + RoundedText(LowOf(u), 3) + " to " + RoundedText(HighOf(u), 3) + " " + unit +
-         " (95 %)";
+  return text + ", " + RoundedText(LowEnd(u), 3) + " to " + RoundedText(HighEnd(u), 3) + " " +
+         unit + " (95 %)";
 }
 
 }  // namespace lightcal

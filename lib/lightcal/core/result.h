@@ -31,6 +31,7 @@ struct Warning {
   std::string code;
   std::string subject;
   std::string message;
+  double strays = 0.0;  // how far off it says that an answer is at most, relative; 0: not said
 };
 using Warnings = std::vector<Warning>;
 

@@ -7,8 +7,8 @@
 namespace lightcal {
 
 std::optional<double> HalfWidthStops(const Uncertain& u) {
-  const double low = u.low.value_or(u.value - u.u95);
-  const double high = u.high.value_or(u.value + u.u95);
+  const double low = LowEnd(u);
+  const double high = HighEnd(u);
   if (!(low > 0.0) || !(high >= low)) return std::nullopt;
   return 0.5 * std::log2(high / low);
 }

@@ -18,6 +18,10 @@ struct Uncertain {
   std::optional<double> high;
 };
 
+// The ends of the interval.
+[[nodiscard]] inline double LowEnd(const Uncertain& u) { return u.low.value_or(u.value - u.u95); }
+[[nodiscard]] inline double HighEnd(const Uncertain& u) { return u.high.value_or(u.value + u.u95); }
+
 // Whether "value +- u95" tells it: its arms are alike to a quarter.
 [[nodiscard]] inline bool IsEven(const Uncertain& u) {
   constexpr double kAlike = 1.25;

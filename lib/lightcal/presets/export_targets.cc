@@ -11,7 +11,6 @@
 
 #include "lightcal/core/file_stem.h"
 #include "lightcal/core/joined.h"
-#include "lightcal/core/numbers_text.h"
 #include "lightcal/core/printable.h"
 #include "lightcal/presets/into_scene.h"
 #include "lightcal/presets/preset_light.h"
@@ -79,17 +78,10 @@ void DropUnasked(const Warnings& said, Warnings& warnings) {
 
 // What was said of a lamp's substitute, and by which formats.
 struct Substituted {
-  std::string lamp, message, formats;
-  double worst_percent = 0.0;  // as the message has it
+  std::string lamp, message;
+  double strays = 0.0;
+  std::vector<std::string_view> formats;
 };
-
-// "elsewhere within 15 % of the axial intensity" -> 15; 0 where a message gives no such figure.
-double WorstPercent(const std::string& message) {
-  const std::size_t end = message.find(" % of the axial intensity");
-  if (end == std::string::npos) return 0.0;
-  const std::size_t begin = message.rfind(' ', end - 1) + 1;
-  return ParseNumber(message.substr(begin, end - begin)).value_or(0.0);
-}
 
 void NoteSubstitutes(std::string_view format, const Warnings& warnings,
                      std::vector<Substituted>& said) {
@@ -99,10 +91,9 @@ void NoteSubstitutes(std::string_view format, const Warnings& warnings,
       return one.lamp == w.subject && one.message == w.message;
     });
     if (known == said.end()) {
-      said.push_back({w.subject, w.message, std::string(format), WorstPercent(w.message)});
-    } else if (("," + known->formats + ",").find("," + std::string(format) + ",") ==
-               std::string::npos) {
-      known->formats += "," + std::string(format);
+      said.push_back({w.subject, w.message, w.strays, {format}});
+    } else if (known->formats.back() != format) {
+      known->formats.push_back(format);
     }
   }
 }
@@ -114,10 +105,10 @@ void SayWorst(const std::vector<Substituted>& said, Warnings& warnings) {
     const Substituted* worst = nullptr;
     for (const Substituted& one : said) {
       if (one.lamp != w.subject) continue;
-      if (worst == nullptr || one.worst_percent > worst->worst_percent) worst = &one;
+      if (worst == nullptr || one.strays > worst->strays) worst = &one;
     }
     if (worst == nullptr || worst->message == w.message) continue;
-    w.message = worst->formats + ": " + worst->message;
+    w.message = Joined(worst->formats, ",") + ": " + worst->message;
   }
 }
 

@@ -61,6 +61,7 @@ bool TakeNativeForm(const FittedLight& lamp, const EngineForms& forms, PresetLig
 
 void TakePunctualForm(const PunctualLight& punctual, PresetLight& light) {
   light.substitution = punctual.substitution;
+  light.strays = punctual.strays;
   switch (punctual.type) {
     case PunctualType::kPoint:
       light.form = LightForm::kPoint;
@@ -107,9 +108,11 @@ void RefitSpot(const FittedLight& lamp, EngineConeLaw law, const LearntEngine* e
   const std::string error = ConeErrorText(light.cone);
   if (flat) {
     light.substitution = FlatAsSpot(error);
+    light.strays = error.empty() ? 0.0 : light.cone.worst;
     return;
   }
   if (error.empty() || (law == EngineConeLaw::kSquared && learnt == nullptr)) return;
+  light.strays = light.cone.worst;
   light.substitution =
       std::string(lamp.distribution ? DistributionWords(lamp) + ", round about its aim"
                                     : "a spot of squared-linear falloff") +
@@ -129,6 +132,7 @@ void ChooseForm(const FittedLight& lamp, const EngineForms& forms, const PresetO
   if (lamp.kind == LightKind::kSpot && permitted.table && (spots == SpotForm::kIes || strays)) {
     light.form = LightForm::kTable;
     light.substitution.clear();
+    light.strays = 0.0;
   }
 }
 
@@ -302,8 +306,8 @@ Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const E
     if (!light.substitution.empty() && !IsSpotWithoutCone(lamp)) {
       const bool shape_only =
           lamp.kind == LightKind::kSpot && !lamp.distribution && light.form == LightForm::kSpot;
-      warnings.push_back(
-          {shape_only ? "cone_profile" : "substituted", light.name(), light.substitution});
+      warnings.push_back({shape_only ? "cone_profile" : "substituted", light.name(),
+                          light.substitution, light.strays});
     }
     if (options.engine) UndoEngine(*options.engine, lamp, light);
     lights.push_back(std::move(light));

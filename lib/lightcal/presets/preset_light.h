@@ -58,6 +58,7 @@ struct PresetLight {
   PunctualLight punctual;  // the same lamp as a point, spot or directional light; position, colour
   LightForm form = LightForm::kPoint;
   std::string substitution;  // what this form does otherwise than the lamp; "" = nothing
+  double strays = 0.0;       // as `substitution` has it, of the axial intensity; 0: not said
   LampAxes axes;             // c0: width and a tube's length run along it; c90: height
   double candela = 0.0, lux = 0.0, nits = 0.0, lumens = 0.0;
   std::optional<double> relative_u95;  // of all of these

@@ -86,6 +86,7 @@ void FromDistribution(const FittedLight& lamp, PunctualLight& light, Warnings& w
   }
   if (nearest->cone) BecomeSpot(light, nearest->cone->inner.value(), nearest->cone->outer.value());
   const double flux = nearest->flux - 1.0;
+  light.strays = nearest->worst;
   light.substitution =
       DistributionWords(lamp) + " exported as the nearest " + (nearest->cone ? "spot" : "point") +
       ", round about its aim: right on the axis, elsewhere within " + PerCent(nearest->worst) +
@@ -124,6 +125,7 @@ void ChooseType(const FittedLight& lamp, PunctualLight& light, Warnings& warning
       light.substitution =
           "a flat source exported as a 90-degree spot: right on the axis beyond 5 times its size, "
           "off the axis within 17 % of the axial intensity, flux 10 % low, shadows are hard";
+      light.strays = 1.0 - kLambertianInnerCosine;
       break;
     case LightKind::kPhotometric:
       FromDistribution(lamp, light, warnings);
@@ -137,7 +139,7 @@ void ChooseType(const FittedLight& lamp, PunctualLight& light, Warnings& warning
       break;
   }
   if (!light.substitution.empty() && !IsSpotWithoutCone(lamp)) {  // told as cone_unknown
-    warnings.push_back({"substituted", lamp.name, light.substitution});
+    warnings.push_back({"substituted", lamp.name, light.substitution, light.strays});
   }
 }
 

@@ -38,6 +38,7 @@ struct PunctualLight {
   Vec3 aim{0.0, 0.0, -1.0};
   EmittedColor color;
   std::string substitution;  // what the engine's light does otherwise than the lamp; "" = nothing
+  double strays = 0.0;       // as `substitution` has it, of the axial intensity; 0: not said
 };
 
 // Cosine of the inner angle of a 90-degree spot whose squared-linear falloff strays least from a

@@ -34,7 +34,7 @@ bool IsMultiple(double lux, double step) {
 
 double DisplayStepOf(const Session& session, const Reading& like) {
   if (!ByDisplay(like)) return 0.0;
-  if (const MeterDescription* const meter = FindMeter(session, like); meter && meter->step) {
+  if (const MeterDescription* const meter = FindMeter(session, like.meter); meter && meter->step) {
     return meter->step->value();
   }
   const std::string& instrument = InstrumentOf(like);

@@ -9,7 +9,7 @@ namespace lightcal {
 
 double SigmaRelative(const Session& session, const Reading& reading) {
   if (reading.sigma_relative) return *reading.sigma_relative;
-  const MeterDescription* const meter = FindMeter(session, reading);
+  const MeterDescription* const meter = FindMeter(session, reading.meter);
   if (meter != nullptr) {
     return std::hypot(meter->sigma_relative, meter->repeatability_relative.value_or(0.0));
   }
@@ -19,7 +19,7 @@ double SigmaRelative(const Session& session, const Reading& reading) {
 double CalibrationRelative(const Session& session, const Reading& reading) {
   if (reading.scale) return reading.scale->sigma;
   if (reading.meter == kDataSheetMeter || reading.quality == MeterQuality::kDerived) return 0.0;
-  const MeterDescription* const meter = FindMeter(session, reading);
+  const MeterDescription* const meter = FindMeter(session, reading.meter);
   const bool described = meter != nullptr;
   if (described && meter->calibration_relative) return *meter->calibration_relative;
   const bool own = reading.sigma_relative && InstrumentOf(reading).empty();
@@ -36,15 +36,15 @@ double RepeatabilityBeside(double sigma, double calibration) {
 }
 
 double RepeatabilityRelative(const Session& session, const Reading& reading) {
-  const MeterDescription* const meter = FindMeter(session, reading);
+  const MeterDescription* const meter = FindMeter(session, reading.meter);
   const bool stated = meter != nullptr && meter->repeatability_relative;
   if (stated && !reading.sigma_relative) return *meter->repeatability_relative;
   return RepeatabilityBeside(SigmaRelative(session, reading),
                              CalibrationRelative(session, reading));
 }
 
-const MeterDescription* FindMeter(const Session& session, const Reading& reading) {
-  const auto found = std::ranges::find(session.meters, reading.meter, &MeterDescription::name);
+const MeterDescription* FindMeter(const Session& session, std::string_view name) {
+  const auto found = std::ranges::find(session.meters, name, &MeterDescription::name);
   return found == session.meters.end() ? nullptr : &*found;
 }
 

@@ -148,8 +148,8 @@ struct Session {
 [[nodiscard]] double RepeatabilityBeside(double sigma, double calibration);
 // That of a reading, or what its meter states.
 [[nodiscard]] double RepeatabilityRelative(const Session& session, const Reading& reading);
-// The [[meter]] that the reading names; null: it names none that the session describes.
-[[nodiscard]] const MeterDescription* FindMeter(const Session& session, const Reading& reading);
+// Null where the session describes no such [[meter]].
+[[nodiscard]] const MeterDescription* FindMeter(const Session& session, std::string_view name);
 // The instrument a reading's calibration belongs to: of a picture its scale's, else its meter's
 // name, else its device, "" = unnamed.
 [[nodiscard]] const std::string& InstrumentOf(const Reading& reading);

@@ -182,9 +182,8 @@ class SessionReader {
     frames.where = std::string(where_) + " " + reader.Place();
     ReadCameraFrames(reader, frames);
     if (reader.Failed() || frames.meter.empty()) return;
-    const auto meter =
-        std::ranges::find(out_.session.meters, frames.meter, &MeterDescription::name);
-    if (meter == out_.session.meters.end()) {
+    const MeterDescription* const meter = FindMeter(out_.session, frames.meter);
+    if (meter == nullptr) {
       reader.Fail("unknown_meter", "meter",
                   "meter = " + Quoted(frames.meter) + " names no [[meter]]");
       return;

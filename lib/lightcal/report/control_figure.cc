@@ -22,9 +22,6 @@ struct SweepMark {
   std::optional<double> promised;
 };
 
-double LowEnd(const Uncertain& u) { return u.low.value_or(u.value - u.u95); }
-double HighEnd(const Uncertain& u) { return u.high.value_or(u.value + u.u95); }
-
 std::vector<SweepMark> OutputsOf(const std::vector<ControlSweep::Point>& points, bool dimmer) {
   std::vector<SweepMark> marks;
   for (const ControlSweep::Point& point : points) {

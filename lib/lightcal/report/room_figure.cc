@@ -80,8 +80,8 @@ std::vector<Dot> DotsOf(const std::vector<ResidualRow>& rows) {
 }
 
 void DrawBand(Svg& svg, const Uncertain& u, const LampCurve& lamp, const Axis& x, const Axis& y) {
-  const double low = std::max(0.0, u.low.value_or(u.value - u.u95)) / u.value;
-  const double high = u.high.value_or(u.value + u.u95) / u.value;
+  const double low = std::max(0.0, LowEnd(u)) / u.value;
+  const double high = HighEnd(u) / u.value;
   std::vector<PagePoint> line;
   std::vector<PagePoint> outline;
   std::vector<PagePoint> back;
@@ -161,7 +161,7 @@ std::string RoomFigure(const FittedLight& light, std::string_view id) {
   const LampInRoom* const room = LikeliestOf(light);
   const LampCurve lamp(light);
   double farthest = 0.0;
-  double most = std::min(u.high.value_or(u.value + u.u95), 3.0 * u.value);
+  double most = std::min(HighEnd(u), 3.0 * u.value);
   for (const Dot& dot : dots) {
     farthest = std::max(farthest, dot.distance_m);
     most = std::max(most, dot.value * std::min(dot.factor, 1.3));

@@ -130,8 +130,7 @@ std::string EndsOf(const Uncertain& u, double scale, int decimals) {
   const auto text = [&](double end) {
     return Fixed(end, end == 0.0 ? decimals : std::max(decimals, DecimalsFor(std::abs(end))));
   };
-  return text(u.low.value_or(u.value - u.u95) * scale) + " … " +
-         text(u.high.value_or(u.value + u.u95) * scale);
+  return text(LowEnd(u) * scale) + " … " + text(HighEnd(u) * scale);
 }
 }  // namespace
 

@@ -147,8 +147,8 @@ void CheckDataSheet(const LightDescription& light, const std::optional<Uncertain
   if (!HasDataSheet(light) || !measured) return;
   const auto sheet = IntensityFromDataSheet(light);
   if (!sheet) return;
-  const double low = measured->low.value_or(measured->value - measured->u95);
-  const double high = measured->high.value_or(measured->value + measured->u95);
+  const double low = LowEnd(*measured);
+  const double high = HighEnd(*measured);
   if (high >= *sheet->low && low <= *sheet->high) return;
   warnings.push_back({"data_sheet_disagrees", light.name,
                       "measured " + RoundedText(measured->value, 4) + " cd, but its data sheet (" +
@@ -160,8 +160,8 @@ void CheckDataSheet(const LightDescription& light, const std::optional<Uncertain
 void CheckPrintedFlux(const LightDescription& light, const Uncertain& read, Warnings& warnings) {
   if (!HasDataSheet(light)) return;
   const double printed = light.flux->value();
-  const double low = read.low.value_or(read.value - read.u95);
-  const double high = read.high.value_or(read.value + read.u95);
+  const double low = LowEnd(read);
+  const double high = HighEnd(read);
   const double least = printed / (1.0 + kFluxToleranceRelative);
   const double most = printed * (1.0 + kFluxToleranceRelative);
   if (high >= least && low <= most) return;

@@ -46,8 +46,8 @@ Uncertain ScaledTo(const Uncertain& intensity, double value) {
 Uncertain FluxOf(const LightDescription& light, const Uncertain& intensity, double model_lm) {
   Uncertain flux = ScaledTo(intensity, model_lm);
   const FluxSpread spread = FluxSpreadOf(light);
-  const double least = std::max(intensity.low.value_or(intensity.value - intensity.u95), 0.0);
-  const double most = intensity.high.value_or(intensity.value + intensity.u95);
+  const double least = std::max(LowEnd(intensity), 0.0);
+  const double most = HighEnd(intensity);
   const double down = std::log(std::max(least / intensity.value, 1e-9));
   flux.low = model_lm * std::exp(-std::hypot(down, std::log(spread.low)));
   flux.high =

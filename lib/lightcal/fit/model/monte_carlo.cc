@@ -50,8 +50,8 @@ auto KindOfRow(const ReadingRow& row) {
 }
 
 // Rows that are alike as one: their weighted mean holds all that they say of the parameters, as
-//   sum w_i (y_i - f)^2 = W (y - f)^2 + constant,   y = sum w_i y_i/W,   W = sum w_i,   w =
-//   1/sigma^2
+//   sum w_i (y_i - f)^2 = W (y - f)^2 + constant,  y = sum w_i y_i/W,  W = sum w_i,
+//   w_i = 1/sigma_i^2
 // and is drawn by its own sigma, W^-1/2. Costs as many rows as there are places, not readings.
 Estimation WithMeans(const Estimation& estimation) {
   Estimation out = estimation;

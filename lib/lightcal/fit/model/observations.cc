@@ -106,7 +106,7 @@ class Collector {
     const auto [known, fresh] = display_step_lx_.try_emplace(instrument, 0.0);
     if (fresh) known->second = DisplayStepOf(session_, reading);
     const double step = known->second;
-    const MeterDescription* const meter = FindMeter(session_, reading);
+    const MeterDescription* const meter = FindMeter(session_, reading.meter);
     const bool stated = meter && (meter->step || meter->repeatability_relative);
     const bool counts = stated || reading.illuminance->value() < kStepsEnough * step;
     return counts ? SigmaOfDisplay(step) : 0.0;

@@ -80,11 +80,10 @@ NextStepAdvice Say(std::string sentence) {
 
 // Nearer, the lamp outshines the rest; how much that buys no plan knows.
 NextStepAdvice SayReadNearer(double nearest_m) {
-  const std::string at = RoundedText(nearest_m / kStep, 2);
-  NextStepAdvice advice = Say("read again at " + at +
-                              " m, facing the lamp: the lamp cannot be told from the other light");
+  NextStepAdvice advice =
+      Say(ReadAgainAt(nearest_m / kStep, "the lamp cannot be told from the other light"));
   constexpr double kNearest_m = 0.1;  // where a hand's breadth of the lamp is no point any more
-  const double metres = ParseNumber(at).value();
+  const double metres = ParseNumber(RoundedText(nearest_m / kStep, 2)).value();  // as it is said
   if (metres >= kNearest_m) {
     advice.reading = PlannedReading{PlannedAction::kRead, Metres(metres), {}, {}};
   }

@@ -23,7 +23,7 @@ struct NextStepAdvice {
   };
   Kind kind = Kind::kSay;
   std::string say;                        // a sentence, what it leaves within
-  std::optional<PlannedReading> reading;  // kReading
+  std::optional<PlannedReading> reading;  // kReading, or the one that kSay asks for
   double minutes = 0.0;                   // that it takes, the meter standing where it read last
 };
 
