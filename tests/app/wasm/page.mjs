@@ -89,6 +89,7 @@ try {
     result.unsaved = await tab.$eval('#lamp-saved', (p) => p.textContent);
     await typed('#name', 'key');
     await tab.select('#room', '');
+    await tab.waitForSelector('#candela', { timeout: 20000 });  // the name's fault has gone
     await tab.type('#readings li:last-child [name=metres]', 'x');
     await tab.waitForSelector('#lamp-answer .fault', { timeout: 20000 });
     result.refused = await tab.$eval('#lamp-answer .fault', (p) => p.textContent);
