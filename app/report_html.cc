@@ -63,10 +63,11 @@ std::vector<LightSpectrum> SpectraOf(const CalibratedSession& calibrated) {
   return spectra;
 }
 
-ReportExtras ExtrasOf(const CalibratedSession& calibrated, EngineAnswers answers) {
+ReportExtras ExtrasOf(const CalibratedSession& calibrated, EngineAnswers answers,
+                      std::vector<ControlSweep> sweeps) {
   ReportExtras extras;
   extras.engines = std::move(answers);
-  extras.sweeps = ControlSweepsOf(calibrated.lights);
+  extras.sweeps = std::move(sweeps);
   extras.spectra = SpectraOf(calibrated);
   for (const RecordedPicture& picture : calibrated.pictures) {
     extras.pictures.push_back(InFalseColors(picture));
@@ -83,8 +84,9 @@ std::string ReportHtml(const LightFile& lights, std::string_view title) {
 }
 
 std::string ReportHtml(const CalibratedSession& calibrated, EngineAnswers answers,
-                       const std::vector<std::string>& engines, std::vector<LightAdvice> advice) {
-  ReportExtras extras = ExtrasOf(calibrated, std::move(answers));
+                       std::vector<ControlSweep> sweeps, const std::vector<std::string>& engines,
+                       std::vector<LightAdvice> advice) {
+  ReportExtras extras = ExtrasOf(calibrated, std::move(answers), std::move(sweeps));
   if (!engines.empty()) {
     std::erase_if(extras.engines.figures, [&](const EngineFigure& figure) {
       return std::ranges::find(engines, figure.engine) == engines.end();

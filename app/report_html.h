@@ -21,16 +21,19 @@ namespace lightcal::app {
     const std::vector<std::shared_ptr<const EnvironmentPicture>>& environments = {});
 // One a light: of a lamp with controls its first state's.
 [[nodiscard]] std::vector<LightSpectrum> SpectraOf(const CalibratedSession& calibrated);
-// With the session's spectra and pictures. `answers`: EngineAnswersOf its lights.
-[[nodiscard]] ReportExtras ExtrasOf(const CalibratedSession& calibrated, EngineAnswers answers);
+// With the session's spectra and pictures. `answers`: EngineAnswersOf its lights; `sweeps`:
+// ControlSweepsOf them.
+[[nodiscard]] ReportExtras ExtrasOf(const CalibratedSession& calibrated, EngineAnswers answers,
+                                    std::vector<ControlSweep> sweeps);
 
 // The session's name, else its directory's.
 [[nodiscard]] const std::string& TitleOf(const Session& session);
 
 [[nodiscard]] std::string ReportHtml(const LightFile& lights, std::string_view title);
-// `answers`: EngineAnswersOf its lights. advice: what to do next of each light (AdviceOf).
-// `engines`: titles of those asked for, whose numbers are shown; none: all.
+// `answers`: EngineAnswersOf its lights; `sweeps`: ControlSweepsOf them. advice: what to do next of
+// each light (AdviceOf). `engines`: titles of those asked for, whose numbers are shown; none: all.
 [[nodiscard]] std::string ReportHtml(const CalibratedSession& calibrated, EngineAnswers answers,
+                                     std::vector<ControlSweep> sweeps,
                                      const std::vector<std::string>& engines,
                                      std::vector<LightAdvice> advice);
 

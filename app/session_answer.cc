@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightcal/calibrate/export_presets.h"
+#include "lightcal/calibrate/states/control_sweeps.h"
 #include "lightcal/core/parallel.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/light_codec.h"
@@ -47,16 +48,17 @@ Result<std::vector<OutputFile>> SessionOutputs(const AnsweredSession& run,
                                                Console& console) {
   const LightFile& lights = run.calibrated.lights;
   const std::string& stem = run.calibrated.session.stem;
+  const std::vector<ControlSweep> sweeps = ControlSweepsOf(lights);
   Result<std::string> json;
   Result<ExportedPresets> presets;
   std::string report;
   const std::array<std::function<void()>, 3> jobs = {
       [&] {
         report =
-            ReportHtml(run.calibrated, run.answers.engines,
+            ReportHtml(run.calibrated, run.answers.engines, sweeps,
                        EnginesAsked(run.answers.lamps, targets), AdviceOf(run.answers.lamps, stem));
       },
-      [&] { presets = ExportPresets(lights, targets, stem, {.rig = rig}); },
+      [&] { presets = ExportPresets(lights, targets, stem, {.rig = rig, .sweeps = sweeps}); },
       [&] { json = LightFileToJson(lights); }};
   ParallelFor(static_cast<int>(jobs.size()), [&](int i) { jobs[static_cast<std::size_t>(i)](); });
   if (!json) return Propagate(std::move(json));

@@ -12,6 +12,7 @@
 #include "input_files.h"
 #include "lamp_answer.h"
 #include "lightcal/calibrate/environments.h"
+#include "lightcal/calibrate/states/control_sweeps.h"
 #include "lightcal/core/file_name.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/nearest_word.h"
@@ -180,7 +181,8 @@ Result<Source> FromSession(const ReportOptions& options, Console& console) {
   ProgressLine line("planning the next readings", !console.quiet());
   const Progress progress = line.Watcher();
   LampAnswers answers = SessionAnswersOf(*calibrated, path, {}, PartOf(progress, 0.0, 0.5));
-  ReportExtras extras = ExtrasOf(*calibrated, std::move(answers.engines));
+  ReportExtras extras =
+      ExtrasOf(*calibrated, std::move(answers.engines), ControlSweepsOf(calibrated->lights));
   extras.advice = AdviceOf(answers.lamps, calibrated->session.stem);
   const Session& session = calibrated->session;
   extras.ladders = LaddersOf(session, {}, {}, PartOf(progress, 0.5, 1.0));

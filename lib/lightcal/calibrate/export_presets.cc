@@ -10,7 +10,7 @@ namespace lightcal {
 Result<ExportedPresets> ExportPresets(const LightFile& lights,
                                       const std::vector<std::string>& targets,
                                       const std::string& stem, PresetOptions options) {
-  options.sweeps = ControlSweepsOf(lights);
+  if (options.sweeps.empty()) options.sweeps = ControlSweepsOf(lights);
   return ExportTargets(lights, targets, stem, options);
 }
 

@@ -11,8 +11,9 @@
 
 namespace lightcal {
 
-// As ExportTargets, with what the lights' controls do (ControlSweepsOf); refuses and fails as that.
-// The pictures of domes are the caller's: options.environments, by LoadEnvironments.
+// As ExportTargets, with what the lights' controls do (options.sweeps, or ControlSweepsOf where it
+// has none); refuses and fails as that. The pictures of domes are the caller's:
+// options.environments, by LoadEnvironments.
 [[nodiscard]] Result<ExportedPresets> ExportPresets(const LightFile& lights,
                                                     const std::vector<std::string>& targets = {},
                                                     const std::string& stem = "lights",

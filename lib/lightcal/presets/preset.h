@@ -64,7 +64,7 @@ struct PresetOptions {
   // What the renderer makes of each kind: undone in every number that engines are given.
   std::shared_ptr<const LearntEngine> engine{};
   // What the lights' controls do, for engines that can turn them; empty: they are as they stand.
-  // ExportPresets finds them out.
+  // ExportPresets finds them out where there are none.
   std::vector<ControlSweep> sweeps{};
   bool figures_only = false;  // pictures are not encoded: their files stay empty
   Progress progress{};        // of all that is written, target by target

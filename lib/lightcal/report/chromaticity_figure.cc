@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -43,15 +44,34 @@ std::optional<Uv1976> PointOf(const FittedColor& color) {
   return AtMired(1e6 / color.cct_K->value, color.duv ? color.duv->value : 0.0);
 }
 
-Uv1976 NearestOnLocus(Uv1976 point) {
-  Uv1976 nearest = AtMired(kHottest_mired, 0.0);
-  const auto away = [&](Uv1976 c) { return std::hypot(c.u - point.u, c.v - point.v); };
-  for (int i = 1; i <= kLocusSteps; ++i) {
-    const Uv1976 here =
-        AtMired(kHottest_mired + (kColdest_mired - kHottest_mired) * i / kLocusSteps, 0.0);
-    if (away(here) < away(nearest)) nearest = here;
+struct LocusPlace {
+  Uv1976 on, across;  // across: what a Duv of 1 adds
+  [[nodiscard]] Uv1976 At(double duv) const {
+    return {on.u + duv * across.u, on.v + duv * across.v};
   }
-  return nearest;
+};
+
+// In equal steps of mireds: the same of every figure, at 471 exponentials a place.
+const std::array<LocusPlace, kLocusSteps + 1>& Locus() {
+  static const auto locus = [] {
+    std::array<LocusPlace, kLocusSteps + 1> places{};
+    for (int i = 0; i <= kLocusSteps; ++i) {
+      const double mired = kHottest_mired + (kColdest_mired - kHottest_mired) * i / kLocusSteps;
+      const Uv1976 on = AtMired(mired, 0.0);
+      const Uv1976 off = AtMired(mired, 1.0);
+      places[static_cast<std::size_t>(i)] = {on, {off.u - on.u, off.v - on.v}};
+    }
+    return places;
+  }();
+  return locus;
+}
+
+Uv1976 NearestOnLocus(Uv1976 point) {
+  return std::ranges::min(Locus(), {},
+                          [&](const LocusPlace& place) {
+                            return std::hypot(place.on.u - point.u, place.on.v - point.v);
+                          })
+      .on;
 }
 
 // The light in the middle; of one far off the locus as much as shows both, where colours are.
@@ -97,10 +117,7 @@ void DrawField(Svg& svg, const Window& window, Uv1976 centre, const std::string&
 
 void DrawLocus(Svg& svg, const Window& window, double duv, std::string_view css) {
   std::vector<PagePoint> points;
-  for (int i = 0; i <= kLocusSteps; ++i) {
-    const double mired = kHottest_mired + (kColdest_mired - kHottest_mired) * i / kLocusSteps;
-    points.push_back(window.At(AtMired(mired, duv)));
-  }
+  for (const LocusPlace& place : Locus()) points.push_back(window.At(place.At(duv)));
   svg.Path(css, points);
 }
 

@@ -27,29 +27,104 @@ constexpr std::size_t kFewestForms = 8, kMostForms = 40;
 // Of ControlCurve alone; named, since what is not may not stand in a class.
 namespace control_curve {
 
-// What one form makes of all pairs of points, but for the rests' sizes: the sums over controls that
-// every size scales.
-struct Kernels {
-  LevelForm form;
-  std::shared_ptr<const std::vector<Seen>> seen;
-  Eigen::MatrixXd base, other, joint;
+// What one form makes of many pairs of points, but for the rests' sizes: the sums over controls
+// that every size scales. Matrix make(covariance of two points) is asked of each sum once.
+template <class Matrix, class Make>
+class Kernels {
+ public:
+  Kernels(const ControlPrior& prior, const LevelForm& form, Make make)
+      : prior_(prior), form_(form), make_(std::move(make)) {
+    base_ = make_([&](const Seen& a, const Seen& b) { return prior.Covariance(form, {}, a, b); });
+    other_ = joint_ = Matrix::Zero(base_.rows(), base_.cols());
+    const auto other = [&](const Seen& a, const Seen& b) { return prior.OtherRest(a, b); };
+    const auto joint = [&](const Seen& a, const Seen& b) { return prior.JointRest(a, b); };
+    if (prior.HasOthers()) other_ = make_(other);
+    if (prior.HasMany()) joint_ = make_(joint);
+  }
+
+  [[nodiscard]] Matrix Under(const Rests& rests) {
+    return base_ + rests.level * rests.level * Level(rests) + rests.other * rests.other * other_ +
+           rests.joint * rests.joint * joint_;
+  }
+
+ private:
   struct OfLevel {
     double length = 1.0;
     bool by_label = false;
-    Eigen::MatrixXd matrix;
+    Matrix matrix;
   };
-  std::vector<OfLevel> levels;  // those that were asked for
+
+  [[nodiscard]] const Matrix& Level(const Rests& rests) {
+    for (const OfLevel& known : levels_) {
+      const bool same = known.length == rests.level_length && known.by_label == rests.by_label;
+      if (same) return known.matrix;
+    }
+    levels_.push_back({rests.level_length, rests.by_label, make_([&](const Seen& a, const Seen& b) {
+                         return prior_.LevelRest(form_, rests, a, b);
+                       })});
+    return levels_.back().matrix;
+  }
+
+  const ControlPrior& prior_;
+  LevelForm form_;
+  Make make_;
+  Matrix base_, other_, joint_;
+  std::vector<OfLevel> levels_;  // those that were asked for
 };
+
+// of(a, b) over all pairs of the points that were read.
+struct OfPairs {
+  const std::vector<Seen>& seen;
+
+  template <class Of>
+  [[nodiscard]] Eigen::MatrixXd operator()(const Of& of) const {
+    const auto n = static_cast<Eigen::Index>(seen.size());
+    Eigen::MatrixXd matrix(n, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      for (Eigen::Index j = 0; j <= i; ++j) {
+        matrix(i, j) = matrix(j, i) =
+            of(seen[static_cast<std::size_t>(i)], seen[static_cast<std::size_t>(j)]);
+      }
+    }
+    return matrix;
+  }
+};
+
+// What f(at), or f(at) - f(from), has in common with every point that was read; last its own
+// variance.
+struct OfContrast {
+  const std::vector<Seen>& seen;
+  Seen at;
+  std::optional<Seen> from;
+
+  template <class Of>
+  [[nodiscard]] Eigen::VectorXd operator()(const Of& of) const {
+    const auto n = static_cast<Eigen::Index>(seen.size());
+    Eigen::VectorXd row(n + 1);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Seen& point = seen[static_cast<std::size_t>(i)];
+      row[i] = of(point, at) - (from ? of(point, *from) : 0.0);
+    }
+    row[n] = of(at, at) + (from ? of(*from, *from) - 2.0 * of(at, *from) : 0.0);
+    return row;
+  }
+};
+
+using PairKernels = Kernels<Eigen::MatrixXd, OfPairs>;
+using ContrastKernels = Kernels<Eigen::VectorXd, OfContrast>;
 
 }  // namespace control_curve
 
-using control_curve::Kernels;
+using control_curve::ContrastKernels;
+using control_curve::OfContrast;
+using control_curve::PairKernels;
 
 struct ControlCurve::Hypotheses {
+  using AllSeen = std::shared_ptr<const std::vector<Seen>>;  // the points that were read
   struct One {
     LevelForm form;
     Rests rests;
-    std::shared_ptr<const std::vector<Seen>> seen;
+    AllSeen seen;  // the same of all hypotheses of one form, which stand side by side
     double center = 0.0;
     Eigen::LLT<Eigen::MatrixXd> solver;
     Eigen::VectorXd weights;  // K^-1 (y - mean)
@@ -65,53 +140,18 @@ struct ControlCurve::Hypotheses {
     Average();
   }
 
-  // of(a, b) over all pairs of points.
-  template <class Of>
-  [[nodiscard]] static Eigen::MatrixXd Pairs(const std::vector<Seen>& seen, const Of& of) {
-    const auto n = static_cast<Eigen::Index>(seen.size());
-    Eigen::MatrixXd matrix(n, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      for (Eigen::Index j = 0; j <= i; ++j) {
-        matrix(i, j) = matrix(j, i) =
-            of(seen[static_cast<std::size_t>(i)], seen[static_cast<std::size_t>(j)]);
-      }
-    }
-    return matrix;
-  }
-
-  [[nodiscard]] Kernels KernelsOf(const LevelForm& form) const {
-    Kernels kernels;
-    kernels.form = form;
+  [[nodiscard]] std::vector<Seen> SeenUnder(const LevelForm& form) const {
     std::vector<Seen> seen;
     for (const CurvePoint& point : points) seen.push_back(prior.See(point.at, form));
-    kernels.base =
-        Pairs(seen, [&](const Seen& a, const Seen& b) { return prior.Covariance(form, {}, a, b); });
-    kernels.other = kernels.joint = Eigen::MatrixXd::Zero(kernels.base.rows(), kernels.base.cols());
-    const auto other = [&](const Seen& a, const Seen& b) { return prior.OtherRest(a, b); };
-    const auto joint = [&](const Seen& a, const Seen& b) { return prior.JointRest(a, b); };
-    if (prior.HasOthers()) kernels.other = Pairs(seen, other);
-    if (prior.HasMany()) kernels.joint = Pairs(seen, joint);
-    kernels.seen = std::make_shared<const std::vector<Seen>>(std::move(seen));
-    return kernels;
+    return seen;
   }
 
-  [[nodiscard]] const Eigen::MatrixXd& LevelKernel(Kernels& kernels, const Rests& rests) const {
-    for (const Kernels::OfLevel& known : kernels.levels) {
-      const bool same = known.length == rests.level_length && known.by_label == rests.by_label;
-      if (same) return known.matrix;
-    }
-    Eigen::MatrixXd matrix = Pairs(*kernels.seen, [&](const Seen& a, const Seen& b) {
-      return prior.LevelRest(kernels.form, rests, a, b);
-    });
-    kernels.levels.push_back({rests.level_length, rests.by_label, std::move(matrix)});
-    return kernels.levels.back().matrix;
-  }
-
-  [[nodiscard]] std::optional<One> Solve(Kernels& kernels, const Rests& rests) const {
+  [[nodiscard]] std::optional<One> Solve(const LevelForm& form, const AllSeen& seen,
+                                         PairKernels& kernels, const Rests& rests) const {
     One one;
-    one.form = kernels.form;
+    one.form = form;
     one.rests = rests;
-    one.seen = kernels.seen;
+    one.seen = seen;
     const auto n = static_cast<Eigen::Index>(points.size());
     Eigen::VectorXd off(n);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -120,9 +160,7 @@ struct ControlCurve::Hypotheses {
     }
     one.center = off.mean();
     off.array() -= one.center;
-    Eigen::MatrixXd covariance =
-        kernels.base + rests.level * rests.level * LevelKernel(kernels, rests) +
-        rests.other * rests.other * kernels.other + rests.joint * rests.joint * kernels.joint;
+    Eigen::MatrixXd covariance = kernels.Under(rests);
     for (Eigen::Index i = 0; i < n; ++i) {
       const double sd = points[static_cast<std::size_t>(i)].sd;
       covariance(i, i) += sd * sd;
@@ -147,8 +185,9 @@ struct ControlCurve::Hypotheses {
     const Rests middling{0.02, 0.8, false, 0.05, 0.01, 1.0};
     std::vector<std::pair<double, std::size_t>> order;
     for (std::size_t i = 0; i < forms.size(); ++i) {
-      Kernels kernels = KernelsOf(forms[i]);
-      const auto one = Solve(kernels, middling);
+      const auto seen = std::make_shared<const std::vector<Seen>>(SeenUnder(forms[i]));
+      PairKernels kernels(prior, forms[i], {*seen});
+      const auto one = Solve(forms[i], seen, kernels, middling);
       if (one) order.emplace_back(-one->evidence, i);
     }
     std::ranges::sort(order);
@@ -181,9 +220,10 @@ struct ControlCurve::Hypotheses {
     const std::vector<LevelForm> forms = LikelyForms();
     for (std::size_t i = 0; i < forms.size(); ++i) {
       if (i == 1) KeepLikely(rests, best);
-      Kernels kernels = KernelsOf(forms[i]);
+      const auto seen = std::make_shared<const std::vector<Seen>>(SeenUnder(forms[i]));
+      PairKernels kernels(prior, forms[i], {*seen});
       for (const Rests& one : rests) {
-        auto solved = Solve(kernels, one);
+        auto solved = Solve(forms[i], seen, kernels, one);
         if (!solved || solved->evidence < best - kLeastEvidence) continue;
         best = std::max(best, solved->evidence);
         all.push_back(*std::move(solved));
@@ -200,26 +240,23 @@ struct ControlCurve::Hypotheses {
     const auto n = static_cast<Eigen::Index>(points.size());
     double mean = 0.0;
     double square = 0.0;
+    std::optional<ContrastKernels> kernels;
+    double expected = 0.0;
+    const std::vector<Seen>* form = nullptr;
     for (const One& one : all) {
-      const Seen at = prior.See(a, one.form);
-      const Seen from = b != nullptr ? prior.See(*b, one.form) : Seen{};
-      const auto covariance = [&](const Seen& u, const Seen& v) {
-        return prior.Covariance(one.form, one.rests, u, v);
-      };
-      Eigen::VectorXd row(n);
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const Seen& point = (*one.seen)[static_cast<std::size_t>(i)];
-        row[i] = covariance(point, at) - (b != nullptr ? covariance(point, from) : 0.0);
+      if (one.seen.get() != form) {
+        form = one.seen.get();
+        Seen at = prior.See(a, one.form);
+        std::optional<Seen> from;
+        if (b != nullptr) from = prior.See(*b, one.form);
+        expected = at.mean - (from ? from->mean : 0.0);
+        kernels.emplace(prior, one.form, OfContrast{*form, std::move(at), std::move(from)});
       }
-      double value = at.mean + row.dot(one.weights);
-      double variance = covariance(at, at);
-      if (b != nullptr) {
-        value -= from.mean;
-        variance += covariance(from, from) - 2.0 * covariance(at, from);
-      } else {
-        value += one.center;
-      }
-      variance -= row.dot(one.solver.solve(row));
+      const Eigen::VectorXd contrast = kernels->Under(one.rests);
+      const auto row = contrast.head(n);
+      const double value = expected + row.dot(one.weights) + (b == nullptr ? one.center : 0.0);
+      double variance = contrast[n];
+      variance -= one.solver.matrixL().solve(row).squaredNorm();
       mean += one.evidence * value;
       square += one.evidence * (std::max(0.0, variance) + value * value);
     }
