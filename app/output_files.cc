@@ -180,6 +180,12 @@ Result<std::string> WriteBeside(const OutputWriter& file) {
 
 Result<void> CheckTarget(const std::string& path, std::string_view format, bool format_known,
                          bool force) {
+  if (path == "-" || path.starts_with("-/")) {
+    return Failed(
+        "unwritable", path,
+        "is no file: what is written is whole or not there, which a stream cannot promise; "
+        "name a file (./- is one), or let --json print the answer");
+  }
   std::error_code error;
   if (fs::is_directory(path, error)) return Failed("exists", path, "is a directory; name a file");
   if (IsInput(path)) {

@@ -20,10 +20,10 @@ struct OutputFile {
 // Before anything is written: fails with "exists" when a target is there, is not of the very format
 // that would replace it as lightcal writes it (provenance_mark.h) and force is off. Refused, with
 // force too: is_input, where this run reads it; wrong_ending; same_output, where two files would
-// take one name. Fails with "unwritable" when a directory or file cannot be written. Creates
-// directories. On any failure no target has changed. Temporaries have names nobody can foresee and
-// are made anew (never through a link); those that a killed run left beside the same targets are
-// removed.
+// take one name. Fails with "unwritable" when a directory or file cannot be written, and of "-".
+// Creates directories. On any failure no target has changed. Temporaries have names nobody can
+// foresee and are made anew (never through a link); those that a killed run left beside the same
+// targets are removed.
 [[nodiscard]] Result<void> WriteOutputs(const std::vector<OutputFile>& files, bool force);
 
 // The same questions of names alone, before long work. `formats` as of OwnFormatOf, empty = not

@@ -8,6 +8,7 @@
 
 #include "clock.h"
 #include "input_files.h"
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/printable.h"
 #include "lightcal/core/uncertain.h"
@@ -116,7 +117,7 @@ std::string SayReading(const TakenReading& taken) {
     text += " ± " + RoundedText(kZ95 * 100.0 * *reading.sigma_relative, 2) + " %";
   }
   if (reading.cct) text += ", " + RoundedText(reading.cct->value(), 4) + " K";
-  if (reading.duv) text += ", Duv " + RoundedText(*reading.duv, 2);
+  if (reading.duv) text += ", Duv " + DuvText(*reading.duv);
   if (!reading.light.empty()) text += "  " + reading.light;
   if (reading.distance) text += " at " + ShortestText(reading.distance->value()) + " m";
   if (!reading.state.empty()) text += ", " + StateText(reading.state);

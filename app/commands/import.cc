@@ -9,6 +9,7 @@
 #include "gdtf_import.h"
 #include "import_plan.h"
 #include "input_files.h"
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
@@ -54,8 +55,8 @@ std::string ReadingsTable(const ImportPlan& plan) {
                       reading.position_m ? PlaceText(*reading.position_m)
                                          : Cell(ValueOf(reading.distance), 4, " m"),
                       Cell(ValueOf(reading.illuminance), 4, " lx"),
-                      Cell(ValueOf(reading.cct), 4, " K"), Cell(reading.duv, 2, ""),
-                      reading.spectrum_file});
+                      Cell(ValueOf(reading.cct), 4, " K"),
+                      reading.duv ? DuvText(*reading.duv) : std::string(), reading.spectrum_file});
     }
   }
   std::string text = TextTable(

@@ -13,6 +13,7 @@
 #include "lamp_state.h"
 #include "lamp_words.h"
 #include "light_input.h"
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/interval_text.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
@@ -133,9 +134,7 @@ std::string Told(const FittedLight& light, const StateAnswer& answer) {
                                     ")" + Beside(LabelOfColor(answer)));
   }
   if (color.duv) {
-    constexpr double kNoDuv = 1e-6;  // what arithmetic leaves of 0
-    const double duv = std::abs(color.duv->value) < kNoDuv ? 0.0 : color.duv->value;
-    text += LabelledLine("Duv", RoundedText(duv, 2) + " ± " + RoundedText(color.duv->u95, 2));
+    text += LabelledLine("Duv", DuvText(color.duv->value) + " ± " + RoundedText(color.duv->u95, 2));
   }
   const std::string spectrum = SpectrumText(light, answer);
   if (!spectrum.empty()) text += LabelledLine("spectrum", spectrum);
@@ -208,14 +207,20 @@ std::optional<LeftOut> LeftOutOf(const FittedLight& light, std::size_t index) {
   return out;
 }
 
+struct ToldStates {
+  Node node;
+  bool any_left_out = false;  // whether some state could be told by the others
+};
 // The table of one light's states, and the same for machines.
-Result<Node> TellAll(const FittedLight& light, Console& console) {
+Result<ToldStates> TellAll(const FittedLight& light, Console& console) {
   std::vector<std::vector<std::string>> rows;
+  bool any_left_out = false;
   Node states = Node::Array();
   for (std::size_t i = 0; i < light.states.size(); ++i) {
     const auto answer = AnswerState(light, light.states[i].state);
     if (!answer) return tl::unexpected(answer.error());
     const auto left_out = LeftOutOf(light, i);
+    any_left_out = any_left_out || left_out;
     const Uncertain* strength = answer->intensity_cd
                                     ? &*answer->intensity_cd
                                     : (answer->illuminance_lx ? &*answer->illuminance_lx : nullptr);
@@ -250,22 +255,31 @@ Result<Node> TellAll(const FittedLight& light, Console& console) {
     for (const std::size_t i : order) sorted.push_back(std::move(rows[i]));
     rows = std::move(sorted);
   }
+  std::vector<std::string> header = {"state", unit, "of full", "label", "CCT", "label", "left out"};
+  if (!any_left_out) {
+    header.pop_back();
+    for (std::vector<std::string>& row : rows) row.pop_back();
+  }
   console.Print(light.name + ", " + unit + " by what its controls say:\n" +
-                TextTable({"state", unit, "of full", "label", "CCT", "label", "left out"}, rows));
-  return Node{{"light", light.name}, {"states", std::move(states)}};
+                TextTable(header, rows));
+  return ToldStates{{{"light", light.name}, {"states", std::move(states)}}, any_left_out};
 }
 
 Result<void> TellTables(const LightFile& file, const StateOptions& options, Console& console) {
   Node lights = Node::Array();
+  bool any_left_out = false;
   for (const FittedLight& light : file.lights) {
     const bool wanted = options.light.empty() || light.name == options.light;
     if (!wanted || light.states.empty()) continue;
     if (!lights.items.empty()) console.Print("\n");
     auto told = TellAll(light, console);
     if (!told) return Propagate(std::move(told));
-    lights.items.push_back(*std::move(told));
+    lights.items.push_back(std::move(told->node));
+    any_left_out = any_left_out || told->any_left_out;
   }
-  console.Print("\nleft out: what the other states say of it, against what was read.\n");
+  if (any_left_out) {
+    console.Print("\nleft out: what the other states say of it, against what was read.\n");
+  }
   console.PrintDocument({{"lights", std::move(lights)}});
   return {};
 }

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "light_table.h"
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/printable.h"
 #include "measuring.h"
@@ -60,7 +61,7 @@ std::string Sparkline(std::span<const double> values) {
 std::string ReadingText(const Reading& reading) {
   std::string text = LuxText(reading);
   if (reading.cct) text += "  " + RoundedText(reading.cct->value(), 4) + " K";
-  if (reading.duv) text += "  Duv " + RoundedText(*reading.duv, 2);
+  if (reading.duv) text += "  Duv " + DuvText(*reading.duv);
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include "lamp_state.h"
 #include "lamp_words.h"
 #include "lightcal/calibrate/states/match_states.h"
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/match/match_lights.h"
@@ -50,14 +51,13 @@ std::string SettingText(const LampSetting& setting) {
 
 std::vector<std::string> RowOfSetting(const StateMatch& match) {
   const LampSetting& setting = match.lamps.front();
-  return {
-      SettingText(setting),
-      std::string(BasisWord(setting.basis)),
-      RoundedText(match.delta_uv.value, 2),
-      ValueOf(match.cct_K, " K"),
-      match.duv ? RoundedText(match.duv->value, 2) + " ± " + RoundedText(match.duv->u95, 2) : kNone,
-      match.stops_lost ? StopsOf(*match.stops_lost) : kNone,
-      match.dimmer_stops ? StopsRange(*match.dimmer_stops) : kNone};
+  return {SettingText(setting),
+          std::string(BasisWord(setting.basis)),
+          RoundedText(match.delta_uv.value, 2),
+          ValueOf(match.cct_K, " K"),
+          match.duv ? DuvText(match.duv->value) + " ± " + RoundedText(match.duv->u95, 2) : kNone,
+          match.stops_lost ? StopsOf(*match.stops_lost) : kNone,
+          match.dimmer_stops ? StopsRange(*match.dimmer_stops) : kNone};
 }
 
 Result<LightPoint> PointOfMatchLight(const MatchLight& light, double sigma) {
@@ -136,7 +136,7 @@ std::string StateMixText(const StateMatch& mix, const std::vector<std::string>& 
   }
   std::string text = TextTable({"lamp", "set", "was", "gives"}, rows) + "\ntogether ";
   text += ValueOf(mix.cct_K, " K");
-  if (mix.duv) text += ", Duv " + RoundedText(mix.duv->value, 2);
+  if (mix.duv) text += ", Duv " + DuvText(mix.duv->value);
   text += ", Δu'v' " + RoundedText(mix.delta_uv.value, 2) + " from the target";
   if (mix.dimmer_stops) text += ", " + StopsRange(*mix.dimmer_stops) + " stops" + " over it";
   return text + "\n";

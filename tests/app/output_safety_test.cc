@@ -53,6 +53,12 @@ class OutputSafety : public ::testing::Test {
   std::string journal_ = folder_.Write("s/readings.jsonl", kJournal);
 };
 
+TEST_F(OutputSafety, ADashIsNoFile) {
+  ExpectNothingChanged({"page", "-o", "-"}, 1);
+  ExpectNothingChanged({"run", session_, "-o", "-"}, 1);
+  EXPECT_FALSE(fs::exists("-"));
+}
+
 TEST_F(OutputSafety, WhatACommandReadsIsNeverOverwrittenWhateverForceSays) {
   for (const std::string& target : {toml_, journal_}) {
     for (const char* force : {"", "--force"}) {

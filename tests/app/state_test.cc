@@ -90,6 +90,17 @@ TEST(StateCommand, StatesLeftOutAreFoundFromTheOthers) {
   EXPECT_GE(held, 13);
 }
 
+TEST(StateCommand, TwoStatesAreNotToldByEachOtherAndNothingIsSaidOfIt) {
+  const TempDir folder;
+  const std::string two =
+      folder.Write("session.toml", DarkSession() + StateRow(1.0, 1000.0, "dimmer = 100") +
+                                       StateRow(1.0, 147.0, "dimmer = 10"));
+  const CliResult told = RunLightcal({"state", two});
+  EXPECT_EQ(told.exit_code, 0) << told.err;
+  EXPECT_THAT(told.out, ::testing::Not(HasSubstr("left out")));
+  EXPECT_THAT(RunLightcal({"state", Panels()}).out, HasSubstr("left out: what the other states"));
+}
+
 TEST(StateCommand, RefusesWhatWasNotReadRatherThanGuess) {
   const auto code = [](const std::string& at) {
     const CliResult run =

@@ -171,6 +171,16 @@ std::string SeriesName(std::string_view before_unit) {
   return series;
 }
 
+// u_irradiance_W_m2_nm, irradiance_sd_mW_m2_nm: how sure the spectrum beside it is, and none
+// itself.
+bool IsUncertainty(const std::vector<Token>& before_unit) {
+  constexpr std::array<std::string_view, 9> kWords = {
+      "u", "u95", "sigma", "sd", "std", "stdev", "uncertainty", "error", "stderr"};
+  return std::ranges::any_of(before_unit, [&](const Token& token) {
+    return std::ranges::find(kWords, token.text) != kWords.end();
+  });
+}
+
 std::optional<CsvColumn> SpectralColumn(const std::string& simple,
                                         const std::vector<Token>& tokens) {
   if (!tokens.empty() && tokens.back().text == "relative") {
@@ -182,6 +192,9 @@ std::optional<CsvColumn> SpectralColumn(const std::string& simple,
     const KnownName* power = Lookup(kPowers, tokens[i].text);
     const KnownName* known_area = Lookup(kAreas, area);
     if (power != nullptr && known_area != nullptr) {
+      if (IsUncertainty({tokens.begin(), tokens.begin() + static_cast<std::ptrdiff_t>(i)})) {
+        return CsvColumn{CsvQuantity::kLeftOut, 1.0, simple, ""};
+      }
       return CsvColumn{CsvQuantity::kIrradiance, power->scale * known_area->scale, simple,
                        SeriesName(std::string_view(simple).substr(0, tokens[i].begin))};
     }

@@ -10,7 +10,7 @@ namespace lightcal::devices::files {
 
 enum class CsvQuantity {
   kUnknown,
-  kLeftOut,    // "-": a person's word for a column that is not wanted
+  kLeftOut,    // "-": a person's word for a column that is not wanted; or a spectrum's uncertainty
   kNeedsUnit,  // a length, angle or irradiance whose unit the name does not say
   kDistance,
   kIlluminance,

@@ -37,6 +37,10 @@ Result<Warnings> CheckColumns(const CsvTable& table) {
                      "{import.columns}. Understood are " +
                          KnownColumnNames());
     }
+    if (column.quantity == CsvQuantity::kLeftOut && column.written != "-") {
+      warnings.push_back({"column_ignored", table.name + ", column " + column.written,
+                          "says how sure the spectrum beside it is; it is left out"});
+    }
     if (column.quantity != CsvQuantity::kUnknown) continue;
     const bool numbers = std::ranges::any_of(
         table.rows, [&](const Row& row) { return NumberAt(table, row, i).has_value(); });

@@ -12,6 +12,7 @@
 
 #include "lightcal/colorimetry/locus_table.h"
 #include "lightcal/colorimetry/planckian.h"
+#include "lightcal/core/numbers_text.h"
 
 namespace lightcal {
 
@@ -154,6 +155,11 @@ const LocusPoint& LatelyAsked(Mireds reciprocal) {
 }
 
 }  // namespace
+
+std::string DuvText(double duv) {
+  constexpr double kNone = 1e-6;
+  return RoundedText(std::abs(duv) < kNone ? 0.0 : duv, 2);
+}
 
 CctResult CctFromUv(Uv1960 uv) {
   CctResult result;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "lightcal/colorimetry/chromaticity.h"
 #include "lightcal/core/units.h"
@@ -43,6 +44,9 @@ struct CctResult {
 };
 [[nodiscard]] CctResult CctFromUv(Uv1960 uv);
 [[nodiscard]] CctResult CctFromXy(Xy xy);
+
+// "-0.0031": two digits; what arithmetic leaves of 0 is 0.
+[[nodiscard]] std::string DuvText(double duv);
 
 // How (mired, duv) move with (x, y), for propagating uncertainty: the 2x2 Jacobian of CctFromXy in
 // reciprocal temperature. Across the locus dduv = n . d(u,v); along it, with radius of curvature R,

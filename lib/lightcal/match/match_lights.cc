@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/parallel.h"
@@ -108,7 +109,7 @@ tl::unexpected<Error> Unreachable(const MatchScene& scene, std::span<const Gel> 
   for (const std::size_t gel : nearest.gels) names.push_back(GelTitle(gels[gel]));
   const CctResult& cct = nearest.cct;
   const std::string color =
-      cct.valid() ? RoundedText(cct.temperature.value(), 4) + " K, Duv " + RoundedText(cct.duv, 2)
+      cct.valid() ? RoundedText(cct.temperature.value(), 4) + " K, Duv " + DuvText(cct.duv)
                   : "x " + RoundedText(nearest.xy.x, 3) + ", y " + RoundedText(nearest.xy.y, 3);
   return Refused(
       "unreachable", "target",

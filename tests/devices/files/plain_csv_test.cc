@@ -87,6 +87,17 @@ TEST(PlainCsv, UnknownColumnOfNumbersIsRefusedWithTheNearestName) {
   EXPECT_THAT(error.message, HasSubstr("did you mean illuminance_lx?"));
 }
 
+TEST(PlainCsv, UncertaintyBesideASpectrumIsNoSecondSpectrum) {
+  for (const char* name : {"u_irradiance_W_m2_nm", "irradiance_sd_W_m2_nm", "Lamp u95 mW/m^2/nm"}) {
+    SCOPED_TRACE(name);
+    const ImportedFile file = Read("wavelength_nm,lamp irradiance_W_m2_nm," + std::string(name) +
+                                   "\n400,1,.1\n500,2,.1\n600,2,.1\n700,3,.1\n");
+    EXPECT_THAT(file.spectra, SizeIs(1));
+    ASSERT_FALSE(file.warnings.empty());
+    EXPECT_EQ(file.warnings[0].code, "column_ignored");
+  }
+}
+
 TEST(PlainCsv, UnknownColumnOfWordsIsLeftOutWithAWarning) {
   const ImportedFile file = Read("note,lux\nnear the window,5\n");
   ASSERT_THAT(file.warnings, SizeIs(1));
