@@ -114,6 +114,19 @@ TEST(Robust, ThreeReadingsAreNeverRejectedYetTheirScatterWidensTheInterval) {
             1.1 * quiet->lights.lights.front().intensity_cd->u95);
 }
 
+TEST(Robust, OneMeterThatDoesNotRepeatAtOnePlaceIsNamedOnceWithItsLikelyCauses) {
+  const auto fitted = FitSession(
+      test::TypedSession({{1, 1000}, {1, 960}, {2, 233}, {1, 925}}, 0.003), FitSettings{});
+  ASSERT_TRUE(fitted);
+  std::vector<std::string> said;
+  for (const Warning& warning : fitted->warnings) {
+    if (warning.code == "suspicious_reading") said.push_back(warning.message);
+  }
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("read 1000, 960.0, 925.0 lx (readings 0, 1, 3)"), std::string::npos);
+  EXPECT_NE(said[0].find("warming up"), std::string::npos);
+}
+
 TEST(Robust, RejectingAReadingNeverNarrowsTheInterval) {
   TwinSession clean(LampTruth{}, 0.01, 9);
   TwinSession spoilt(LampTruth{}, 0.01, 9);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal::fit {
@@ -53,6 +54,29 @@ std::optional<double> FacingOf(ReadingRow row, const Observation& o, const Theta
   return std::abs(facing - turned) > kAlike * facing ? std::optional(facing) : std::nullopt;
 }
 
+bool SamePlace(const Observation& a, const Observation& b) {
+  return a.distance_m == b.distance_m && a.position_m == b.position_m && a.normal == b.normal &&
+         a.tilt_rad == b.tilt_rad && a.off_axis_rad == b.off_axis_rad && a.lit == b.lit &&
+         a.behind_card == b.behind_card && a.instrument == b.instrument;
+}
+
+// The rows read where `row` was by its meter, itself among them; none where they agree within what
+// that meter repeats: then no model is needed to tell what is wrong.
+std::vector<const Observation*> Unrepeated(const std::vector<Observation>& rows,
+                                           const Observation& row) {
+  constexpr double kSigmas = 4.0;
+  std::vector<const Observation*> there;
+  bool apart = false;
+  for (const Observation& other : rows) {
+    if (!SamePlace(row, other)) continue;
+    there.push_back(&other);
+    apart = apart || std::abs(row.measured_lx - other.measured_lx) >
+                         kSigmas * std::hypot(row.sigma_lx, other.sigma_lx);
+  }
+  if (!apart) there.clear();
+  return there;
+}
+
 }  // namespace
 
 void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
@@ -76,7 +100,26 @@ void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
                         "two of the four readings disagree with the other two; nothing tells which "
                         "are right: read again"});
   }
+  std::vector<const Observation*> told;
   for (const int row : estimate.suspicious) {
+    const Observation& one = observations.rows[prepared.observation[row]];
+    if (std::ranges::find(told, &one) != told.end()) continue;
+    const auto there = Unrepeated(observations.rows, one);
+    if (!there.empty()) {
+      told.insert(told.end(), there.begin(), there.end());
+      warnings.push_back(
+          {"suspicious_reading", light,
+           "at " + RoundedText(one.distance_m, 4) + " m the same meter read " +
+               Joined(there, ", ",
+                      [](const Observation* o) { return RoundedText(o->measured_lx, 4); }) +
+               " lx (readings " +
+               Joined(there, ", ", [](const Observation* o) { return std::to_string(o->index); }) +
+               "): farther apart than it repeats. The lamp was still warming up, its battery or "
+               "its "
+               "mains sank, or the head was held otherwise: let it burn ten minutes and read "
+               "again"});
+      continue;
+    }
     warnings.push_back({"suspicious_reading", light,
                         describe(row) + " disagrees with the model; with " +
                             Plural(prepared.lit_rows, "reading") +
