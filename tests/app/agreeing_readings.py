@@ -11,6 +11,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
 from built_command import answer  # noqa: E402
 
 DISTANCES = (0.5, 1.0, 2.0)
+SEEDS = int(sys.argv[2]) if len(sys.argv) > 2 else 40  # of few the frequencies are not judged
+JUDGED = len(sys.argv) <= 2
 
 
 def found(lux, *words):
@@ -46,20 +48,20 @@ def beside_wall(random):
 
 square = np.array([1 / d**2 for d in DISTANCES])
 deep, held = 0, 0
-for seed in range(40):
+for seed in range(SEEDS):
     random = np.random.default_rng(seed)
     low, high = found(48 * square * np.exp(random.normal(0, 0.01, 3)), "--fixture", "bulb")
     deep += low < 30
     held += low <= 48 <= high
-print(f"48 cd that agree: held {held} of 40, low end below 30 cd {deep}")
-assert held >= 39 and deep <= 2, (held, deep)
+print(f"48 cd that agree: held {held} of {SEEDS}, low end below 30 cd {deep}")
+assert not JUDGED or held >= 39 and deep <= 2, (held, deep)
 
 low, high = found([400 * tube(1.2, d) for d in DISTANCES], "--length", "1.2m", "--radius", "13mm")
 print(f"a tube of 400 cd: {low:.0f} to {high:.0f}")
 assert 250 < low < 400 < high < 460, (low, high)
 
 held, widths = 0, []
-for seed in range(40):
+for seed in range(SEEDS):
     random = np.random.default_rng(1000 + seed)
     room = 0.12 * np.exp(random.normal(0, 0.4)) * (np.array(DISTANCES) / 3) ** random.normal(-0.7, 0.2)
     gain = 100 * np.exp(random.normal(0, 0.03))
@@ -67,5 +69,5 @@ for seed in range(40):
     low, high = found(lux, "--fixture", "bulb")
     held += low <= 100 <= high
     widths.append(high / low)
-print(f"bulbs beside a wall: held {held} of 40, {np.median(widths):.2f} from end to end")
-assert held >= 37, held
+print(f"bulbs beside a wall: held {held} of {SEEDS}, {np.median(widths):.2f} from end to end")
+assert not JUDGED or held >= 37, held

@@ -3,7 +3,7 @@
 """Lamps with what is printed on their boxes, read once or twice: does the printed flux beside a reading make the
 answer surer, and does its interval hold the lamp's intensity and its flux as often as it says?
 
-    data_sheets.py LIGHTCAL [--lamps 400] [--seed 20261126]
+    data_sheets.py LIGHTCAL [LAMPS] [--seed 20261126]     400; of fewer nothing but that they are answered is judged
 
 Knows nothing of lightcal's code. A bulb shines P = 4 pi k I, k as of the 667 traced bulbs of traced_rooms (.71 to
 1.01); its maker prints P to 5 % (1 sigma). A flat panel shines pi I. Meters are 5 % off in common and 1 % a reading;
@@ -71,7 +71,7 @@ def judged(lamps, answers, quantity="candela"):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("lightcal")
-    parser.add_argument("--lamps", type=int, default=400)
+    parser.add_argument("lamps", type=int, nargs="?", default=400)
     parser.add_argument("--seed", type=int, default=20261126)
     asked = parser.parse_args()
     fails = []
@@ -104,7 +104,7 @@ def main():
                     fails.append(f"{kind}, {readings} read: {width} beside {width_bare} and {width_alone}")
                 if dimmed == 0 and wider > .12:
                     fails.append(f"{kind}, {readings} read: {wider:.1%} wider for the box")
-    sys.exit("\n".join(fails) or 0)
+    sys.exit(asked.lamps >= 400 and "\n".join(fails) or 0)
 
 
 if __name__ == "__main__":

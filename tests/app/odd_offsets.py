@@ -12,6 +12,7 @@ import numpy as np
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
 from built_command import LIGHTCAL, answer  # noqa: E402
 
+SEEDS = int(sys.argv[2]) if len(sys.argv) > 2 else 16  # of few the frequencies are not judged
 DARK = ("--room", "dark", "--meter", "3%")
 
 
@@ -36,7 +37,7 @@ def softbox(seed):
 
 
 held = alone = count = 0
-for seed in range(16):
+for seed in range(SEEDS):
     typed = softbox(seed)
     said = answer_or_error("quick", *typed, *DARK, "--at", "1m")
     if "error" in said:  # its beam is open, which has a test of its own
@@ -54,4 +55,4 @@ for seed in range(16):
     foretold = ends(said["predictions"][0]["model_lx"])
     assert foretold[0] <= read <= foretold[2] and abs(foretold[1] / read - 1) < 0.03, (typed, foretold)
 print(f"softboxes: {count}, held {held}, by the reading on the axis alone {alone}")
-assert count >= 8 and held >= alone - 1, (count, held, alone)
+assert len(sys.argv) > 2 or count >= 8 and held >= alone - 1, (count, held, alone)

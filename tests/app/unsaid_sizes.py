@@ -13,7 +13,8 @@ import sys
 import numpy as np
 
 LIGHTCAL = str(pathlib.Path(sys.argv[1]).resolve())
-SEEDS = 40
+SEEDS = int(sys.argv[2]) if len(sys.argv) > 2 else 40  # of few the frequencies are not judged
+JUDGED = len(sys.argv) <= 2
 
 
 def rect(width, height, distance):
@@ -102,7 +103,7 @@ for name, law, size, distances, words in (
             widths[carded].append((high - low) / 2 / candela)
     print(f"{name}, size unsaid: {held[False]} of {SEEDS} held, +- {100 * np.median(widths[False]):.0f} %; "
           f"with a card {held[True]}, +- {100 * np.median(widths[True]):.0f} %")
-    assert held[False] >= 36 and held[True] >= 36, name
+    assert not JUDGED or held[False] >= 36 and held[True] >= 36, name
 
 # In the dark no wall carries what the lamp may measure.
 for name, law, size, distances, words in (
@@ -126,7 +127,7 @@ for name, law, size, distances, words in (
         held += low <= candela <= high
         widths.append((high - low) / 2 / candela)
     print(f"{name} in the dark, size unsaid: {held} of {SEEDS} held, +- {100 * np.median(widths):.0f} %")
-    assert held >= 35 and np.median(widths) < 0.12, name
+    assert not JUDGED or held >= 35 and np.median(widths) < 0.12, name
 
 # A fresnel of 400 000 cd, 40 degrees wide, on a stage of 40 x 30 x 12 m and reflectance .3: at 20 m the path
 # traced walls add 2.3 %.
