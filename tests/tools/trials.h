@@ -18,4 +18,7 @@ inline constexpr bool kUnderAddressSanitizer = false;  // the asan preset builds
 // often an interval holds the truth is judged on the build without one, where this gives `all`.
 constexpr int TrialsOf(int all) { return kUnderAddressSanitizer ? 1 + all / 20 : all; }
 
+// The same of a map's points: so many across it make a sixteenth of them.
+constexpr int AcrossOf(int all) { return kUnderAddressSanitizer ? (all + 3) / 4 : all; }
+
 }  // namespace lightcal::test
