@@ -150,7 +150,7 @@ T BeamShape::Latent(const T& gamma, const T* p) const {
   using std::log;
   using std::sqrt;
   constexpr int kLast = kNodes - 1;
-  const auto node = [p](int k) { return p[std::abs(k)]; };
+  const auto node = [p](int k) -> const T& { return p[std::abs(k)]; };
   const T u = gamma / scale;
   const T x = log(u + sqrt(1.0 + u * u)) / step;
   const double whole = std::floor(ScalarOf(x));
@@ -159,9 +159,9 @@ T BeamShape::Latent(const T& gamma, const T* p) const {
   }
   const int i = std::max(0, static_cast<int>(whole));
   const T t = x - static_cast<double>(i);
-  const T before = node(i - 1);
-  const T left = node(i);
-  const T right = node(i + 1);
+  const T& before = node(i - 1);
+  const T& left = node(i);
+  const T& right = node(i + 1);
   const T after = i + 2 <= kLast ? node(i + 2) : T(2.0 * right - left);
   // Catmull and Rom's cubic.
   return left + 0.5 * t *

@@ -87,8 +87,10 @@ template <class T>
   return row;
 }
 
+// kOfShape: as many parameters as the shape's family has (BeamShape::kFew or kNodes).
+template <int kOfShape>
 struct BeamProblem {
-  static constexpr int kCount = kBeamCommon + BeamShape::kNodes;
+  static constexpr int kCount = kBeamCommon + kOfShape;
   BeamShape shape;
   std::array<ParameterRule, kCount> rules;
   std::vector<BeamRow> rows;
@@ -139,25 +141,33 @@ struct BeamProblem {
     *residual = shape.PriorRow(i - sheet.size(), p + kBeamCommon);
     return true;
   }
-  // The same and its derivatives: by the few parameters of a family that has few.
+  // The same and its derivatives. A row of the curve's smoothness knows three nodes, and there are
+  // more such rows than readings.
   bool Differentiate(std::size_t i, const double* p, double* residual, double* gradient) const {
-    return shape.family == BeamFamily::kSmooth
-               ? DifferentiateBy<kCount>(i, p, residual, gradient)
-               : DifferentiateBy<kBeamCommon + BeamShape::kFew>(i, p, residual, gradient);
-  }
-
- private:
-  template <int kFirst>
-  bool DifferentiateBy(std::size_t i, const double* p, double* residual, double* gradient) const {
-    using Jet = ceres::Jet<double, kFirst>;
-    std::array<Jet, kFirst> variables;
-    for (int k = 0; k < kFirst; ++k) variables[k] = Jet(p[k], k);
-    Jet out(0.0);
-    const bool has_value = Residual(i, variables.data(), &out);
+    const std::size_t measured = rows.size() + sheet.size();
+    if (i < measured) {
+      return DifferentiateByJets<BeamProblem>(
+          [&](const auto* at, auto* out) { return Residual(i, at, out); }, p, residual, gradient);
+    }
+    using Jet = ceres::Jet<double, 3>;
+    const std::size_t last = i - measured;
+    const std::size_t first = last < 2 ? 0 : last - 2;
+    std::array<Jet, BeamShape::kNodes> nodes;
+    for (std::size_t k = first; k <= last; ++k) {
+      nodes[k] = Jet(p[kBeamCommon + k], static_cast<int>(last - k));
+    }
+    const Jet out = shape.PriorRow(last, nodes.data());
     *residual = out.a;
-    std::fill(std::copy_n(out.v.data(), kFirst, gradient), gradient + kCount, 0.0);
-    return has_value;
+    std::fill_n(gradient, kCount, 0.0);
+    for (std::size_t k = first; k <= last; ++k) {
+      gradient[kBeamCommon + k] = out.v[static_cast<Eigen::Index>(last - k)];
+    }
+    return true;
   }
 };
+
+// Its steps by Gauss and Newton end, and those of 26 parameters are dear (polish.h).
+template <int kOfShape>
+inline constexpr bool kEndsByNewton<BeamProblem<kOfShape>> = false;
 
 }  // namespace lightcal::fit

@@ -24,16 +24,16 @@ constexpr double kOneSurface = 1.2;      // farthest over nearest reading of it
 constexpr double kForemostStart = -0.8;  // of the nearest distance
 constexpr double kAnyBend = 4.0;         // one of kBends
 constexpr double kDark = 0.01;           // of the peak
+constexpr int kBeamParameters = kBeamCommon + BeamShape::kNodes;  // of any family
 // Standard deviations of the smooth curve's second derivative, over (half angle)^-1.5.
 constexpr std::array<double, 4> kBends = {0.6, 1.5, 4.0, 10.0};
-
-using BeamValues = ValuesOf<BeamProblem>;
 
 // ---- one family under one offset ----
 
 // 1 sigma, lux, of what an angle or a place that is not quite what it says does to a row: from both
 // sides of it, so that an edge and a peak count as well as a slope.
-double ByAngle(const BeamProblem& problem, const BeamRow& row, double seen, const double* p) {
+template <class P>
+double ByAngle(const P& problem, const BeamRow& row, double seen, const double* p) {
   if (!row.lit || !(row.angle_sd > 0.0)) return 0.0;
   const double more = problem.Illuminance(TurnedAway(row, row.angle_sd), p) - seen;
   const double less = problem.Illuminance(TurnedAway(row, -row.angle_sd), p) - seen;
@@ -42,7 +42,8 @@ double ByAngle(const BeamProblem& problem, const BeamRow& row, double seen, cons
 
 // What the rows' sigmas are by the lamp as it stands: with the scatter of the walls' light and of
 // where the meter stood.
-void SettleBeam(BeamProblem& problem, const double* p) {
+template <class P>
+void SettleBeam(P& problem, const double* p) {
   for (BeamRow& row : problem.rows) {
     if (!row.walls && !(row.angle_sd > 0.0)) continue;
     const double seen = problem.Illuminance(row, p);
@@ -55,13 +56,15 @@ void SettleBeam(BeamProblem& problem, const double* p) {
 }
 
 // But for what is the same of all.
-double MinusLnPosterior(const BeamProblem& problem, const BeamValues& p) {
+template <class P>
+double MinusLnPosterior(const P& problem, const ValuesOf<P>& p) {
   double out = HalfChiSquaredOf(problem, p);
   for (const BeamRow& row : problem.rows) out += std::log(row.sigma);
   return out;
 }
 
-std::optional<BeamValues> SolveBeam(BeamProblem& problem, BeamValues p) {
+template <class P>
+std::optional<ValuesOf<P>> SolveBeam(P& problem, ValuesOf<P> p) {
   for (int i = 0; i < kRounds; ++i) {
     SettleBeam(problem, p.data());
     const auto found = SolveTiny(problem, p);
@@ -80,7 +83,8 @@ double NearestOf(const std::vector<BeamRow>& rows) {
 }
 
 // ln I by weighted mean, all else held.
-void StartStrength(const BeamProblem& problem, BeamValues& p) {
+template <class P>
+void StartStrength(const P& problem, ValuesOf<P>& p) {
   p[kBeamLnIntensity] = 0.0;
   double aa = 0.0;
   double am = 0.0;
@@ -93,10 +97,19 @@ void StartStrength(const BeamProblem& problem, BeamValues& p) {
   p[kBeamLnIntensity] = aa > 0.0 && am > 0.0 ? std::log(am / aa) : 0.0;
 }
 
-std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const OffsetPart* offset,
-                                      double weight, const BeamShape& shape, double ln_peak,
-                                      const std::vector<std::vector<double>>& starts) {
-  BeamProblem problem;
+// Those that its family has not are 0.
+template <class P>
+Eigen::VectorXd OverAll(const ValuesOf<P>& p) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(kBeamParameters);
+  std::ranges::copy(p, out.data());
+  return out;
+}
+
+template <class P>
+std::optional<SolvedBeam> SolveFamilyOf(const BeamReadings& readings, const OffsetPart* offset,
+                                        double weight, const BeamShape& shape, double ln_peak,
+                                        const std::vector<std::vector<double>>& starts) {
+  P problem;
   problem.shape = shape;
   problem.rows = readings.rows;
   problem.sheet = readings.sheet;
@@ -111,20 +124,20 @@ std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const Offset
     problem.rules[kBeamWallsSlope] = {true, readings.walls->slope, readings.walls->sd_slope};
   }
   const auto shape_rules = shape.Rules();
-  std::copy(shape_rules.begin(), shape_rules.end(), problem.rules.begin() + kBeamCommon);
+  std::copy_n(shape_rules.begin(), P::kCount - kBeamCommon, problem.rules.begin() + kBeamCommon);
 
-  std::vector<std::pair<double, BeamValues>> tried;
+  std::vector<std::pair<double, ValuesOf<P>>> tried;
   for (const std::vector<double>& of_shape : starts) {
-    BeamValues start{};
+    ValuesOf<P> start{};
     for (int k = 0; k < kBeamCommon; ++k) start[k] = problem.rules[k].prior_mean;
     std::copy(of_shape.begin(), of_shape.end(), start.begin() + kBeamCommon);
     if (!smooth) StartStrength(problem, start);
     SettleBeam(problem, start.data());
     tried.emplace_back(MinusLnPosterior(problem, start), start);
   }
-  std::ranges::sort(tried, {}, &std::pair<double, BeamValues>::first);
+  std::ranges::sort(tried, {}, &std::pair<double, ValuesOf<P>>::first);
   tried.resize(std::min(tried.size(), kRefined));
-  std::optional<BeamValues> best;
+  std::optional<ValuesOf<P>> best;
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [rough, start] : tried) {
     const auto found = SolveBeam(problem, start);
@@ -137,22 +150,23 @@ std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const Offset
   }
   if (!best) return std::nullopt;
   SettleBeam(problem, best->data());
-  const Linearised<BeamProblem> at = Linearise(problem, *best);
+  const Linearised<P> at = Linearise(problem, *best);
   const auto covariance = CovarianceAt(problem, at);
   if (!covariance || !covariance->allFinite()) return std::nullopt;
 
   SolvedBeam out;
   out.shape = shape;
   out.smooth = smooth;
-  out.theta = Eigen::Map<const Eigen::VectorXd>(best->data(), BeamProblem::kCount);
-  out.covariance = *covariance;
+  out.theta = OverAll<P>(*best);
+  out.covariance = Eigen::MatrixXd::Zero(kBeamParameters, kBeamParameters);
+  out.covariance.topLeftCorner<P::kCount, P::kCount>() = *covariance;
   // Free parameters only: the others' rows are zero.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(out.covariance);
   out.root = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   out.ln_probability = std::log(weight * (offset != nullptr ? offset->weight : 1.0)) -
                        MinusLnPosterior(problem, *best) - shape.LnPriorScale();
   const auto triangle = FreeTriangle(problem, at);
-  for (int k = 0; k < BeamProblem::kCount; ++k) {
+  for (int k = 0; k < P::kCount; ++k) {
     if (!problem.rules[k].free) continue;
     out.ln_probability -= std::log(std::abs(triangle(k, k)));
     if (problem.rules[k].prior_sd > 0.0) out.ln_probability -= std::log(problem.rules[k].prior_sd);
@@ -178,7 +192,7 @@ std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const Offset
     out.gamma_rad.push_back(TowardsOf(row, best->data()).gamma);
   }
   out.ln_axial = out.theta[kBeamLnIntensity];
-  out.axial = Eigen::VectorXd::Zero(BeamProblem::kCount);
+  out.axial = Eigen::VectorXd::Zero(kBeamParameters);
   out.axial[kBeamLnIntensity] = 1.0;
   double squares_ratio = 1.0;
   const ReadFrom& from = shape.read_from;
@@ -201,6 +215,16 @@ std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const Offset
   }
   out.leave_one_out = lit > 0 ? std::sqrt(squares / lit) : 0.0;
   return out;
+}
+
+std::optional<SolvedBeam> SolveFamily(const BeamReadings& readings, const OffsetPart* offset,
+                                      double weight, const BeamShape& shape, double ln_peak,
+                                      const std::vector<std::vector<double>>& starts) {
+  return shape.family == BeamFamily::kSmooth
+             ? SolveFamilyOf<BeamProblem<BeamShape::kNodes>>(readings, offset, weight, shape,
+                                                             ln_peak, starts)
+             : SolveFamilyOf<BeamProblem<BeamShape::kFew>>(readings, offset, weight, shape, ln_peak,
+                                                           starts);
 }
 
 void ShareOut(std::vector<SolvedBeam>& beams) {

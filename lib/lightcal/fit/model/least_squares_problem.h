@@ -63,7 +63,23 @@ template <class P>
   return problem.Residual(i, theta, &residual) ? residual : std::numeric_limits<double>::infinity();
 }
 
-// The same, and its derivatives by every parameter.
+// A row's value at theta and its derivatives by every parameter of P; false: it has none.
+template <class P, class Row>
+bool DifferentiateByJets(const Row& row, const double* theta, double* residual, double* gradient) {
+  using Jet = ceres::Jet<double, P::kCount>;
+  std::array<Jet, P::kCount> variables;
+  for (int k = 0; k < P::kCount; ++k) {  // in place: what is made beside them is copied
+    variables[k].a = theta[k];
+    variables[k].v[k] = 1.0;
+  }
+  Jet out(0.0);
+  const bool has_value = row(variables.data(), &out);
+  *residual = out.a;
+  std::copy_n(out.v.data(), P::kCount, gradient);
+  return has_value;
+}
+
+// Row i at theta and its derivatives; infinite, and those 0, where it has no value.
 template <class P>
 double DifferentiateAt(const P& problem, std::size_t i, const double* theta, double* gradient) {
   double value = 0.0;
@@ -71,13 +87,9 @@ double DifferentiateAt(const P& problem, std::size_t i, const double* theta, dou
   if constexpr (requires { problem.Differentiate(i, theta, &value, gradient); }) {
     has_value = problem.Differentiate(i, theta, &value, gradient);
   } else {
-    using Jet = ceres::Jet<double, P::kCount>;
-    std::array<Jet, P::kCount> variables;
-    for (int k = 0; k < P::kCount; ++k) variables[k] = Jet(theta[k], k);
-    Jet residual(0.0);
-    has_value = problem.Residual(i, variables.data(), &residual);
-    value = residual.a;
-    std::copy_n(residual.v.data(), P::kCount, gradient);
+    has_value = DifferentiateByJets<P>(
+        [&](const auto* at, auto* out) { return problem.Residual(i, at, out); }, theta, &value,
+        gradient);
   }
   if (has_value) return value;
   std::fill_n(gradient, P::kCount, 0.0);
