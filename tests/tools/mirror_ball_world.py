@@ -4,6 +4,8 @@ plane truly gets: an independent world (nothing of lightcal's is read here).
 
 Directions are x right, y forward, z up; the panorama's centre looks along +y.
 """
+import functools
+
 import numpy as np
 
 from usdlux import write_exr
@@ -39,14 +41,17 @@ def read_hdr(path):
     return (out[..., :3] + 0.5) * scale[..., None]
 
 
+@functools.lru_cache(maxsize=4)
 def directions(height, width):
-    """Unit vectors of a panorama's pixel middles, and their solid angles."""
+    """Unit vectors of a panorama's pixel middles, and their solid angles; nobody changes them."""
     zenith = np.pi * (np.arange(height) + 0.5) / height
     azimuth = 2.0 * np.pi * ((np.arange(width) + 0.5) / width - 0.5)
     z, a = np.meshgrid(zenith, azimuth, indexing="ij")
     d = np.stack([np.sin(a) * np.sin(z), np.cos(a) * np.sin(z), np.cos(z)], -1)
     edge = np.cos(np.pi * np.arange(height + 1) / height)
-    return d, np.repeat(((edge[:-1] - edge[1:]) * 2.0 * np.pi / width)[:, None], width, 1)
+    omega = np.repeat(((edge[:-1] - edge[1:]) * 2.0 * np.pi / width)[:, None], width, 1)
+    d.flags.writeable = omega.flags.writeable = False
+    return d, omega
 
 
 def look_up(panorama, d):
