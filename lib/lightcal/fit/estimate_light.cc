@@ -17,6 +17,7 @@
 #include "lightcal/fit/model/robust.h"
 #include "lightcal/fit/model/row_reports.h"
 #include "lightcal/fit/model/starts.h"
+#include "lightcal/fit/model/weighed_candidates.h"
 
 namespace lightcal::fit {
 namespace {

@@ -7,9 +7,7 @@
 #include <numbers>
 
 #include "lightcal/core/numbers_text.h"
-#include "lightcal/core/student.h"
-#include "lightcal/fit/model/drift_between.h"
-#include "lightcal/records/reading_time.h"
+#include "lightcal/fit/model/rows_behind.h"
 
 namespace lightcal::fit {
 namespace {
@@ -20,18 +18,11 @@ constexpr double kDarkFloor = 0.005;
 constexpr double kSwapped = 0.1;  // of the lit reading, below its shadow-card reading
 constexpr double kApart = 4.0;    // standard deviations that no two readings of one light lie apart
 
-struct MeanLux {
-  double lux = 0.0;
-  double sigma_lx = 0.0;  // 1 sigma
-};
-
-class OtherLight {
+class OtherLight : private RowsBehind {
  public:
-  OtherLight(const LightDescription& light, Observations& out, std::vector<ReadingBehind> behind)
-      : light_(light), out_(out), behind_(std::move(behind)) {}
+  using RowsBehind::RowsBehind;
 
   Result<void> Take() {
-    for (ReadingBehind& one : behind_) one.seconds = SecondsOfTime(one.source->reading.time);
     if (auto separated = SubtractOthers(); !separated) return separated;
     if (auto taken = SubtractShadows(); !taken) return taken;
     if (auto off = CheckOff(); !off) return off;
@@ -42,11 +33,6 @@ class OtherLight {
   }
 
  private:
-  // Of what row i shows.
-  [[nodiscard]] double SigmaLx(std::size_t i) const {
-    return std::hypot(out_.rows[i].raw_lx * behind_[i].sigma, behind_[i].last_digit_lx);
-  }
-
   // Readings with other lamps lit become differences; what they were subtracted from goes.
   Result<void> SubtractOthers() {
     std::vector<bool> gone(out_.rows.size(), false);
@@ -80,67 +66,6 @@ class OtherLight {
     }
     Keep(gone);
     return {};
-  }
-
-  void Keep(const std::vector<bool>& gone) {
-    std::vector<Observation> kept;
-    std::vector<ReadingBehind> kept_extra;
-    for (std::size_t i = 0; i < out_.rows.size(); ++i) {
-      if (gone[i]) continue;
-      kept.push_back(out_.rows[i]);
-      kept_extra.push_back(behind_[i]);
-    }
-    out_.rows = std::move(kept);
-    behind_ = std::move(kept_extra);
-  }
-
-  template <class Where>
-  [[nodiscard]] std::vector<std::size_t> RowsWhere(const Where& where) const {
-    std::vector<std::size_t> rows;
-    for (std::size_t j = 0; j < out_.rows.size(); ++j) {
-      if (where(j)) rows.push_back(j);
-    }
-    return rows;
-  }
-
-  // The mean of those readings among `candidates` that are `of` row i, weighted by their sigmas;
-  // none: there is none.
-  template <class Of>
-  [[nodiscard]] std::optional<MeanLux> MeanOf(std::size_t i,
-                                              const std::vector<std::size_t>& candidates,
-                                              const Of& of) const {
-    const Observation& row = out_.rows[i];
-    double weights = 0.0;
-    double sum = 0.0;
-    for (const std::size_t j : candidates) {
-      if (!of(j)) continue;
-      const Observation& other = out_.rows[j];
-      const double scales =
-          other.instrument != row.instrument ? other.raw_lx * other.calibration : 0.0;
-      constexpr double kSquarable_lx = 1e-150;
-      const double sigma = std::max(
-          {std::hypot(SigmaLx(j), scales), kLeastSigma * std::abs(row.raw_lx), kSquarable_lx});
-      weights += 1.0 / (sigma * sigma);
-      sum += other.raw_lx / (sigma * sigma);
-    }
-    if (!(weights > 0.0)) return std::nullopt;
-    return MeanLux{sum / weights, 1.0 / std::sqrt(weights)};
-  }
-
-  void TakeFrom(std::size_t i, const MeanLux& other) {
-    Observation& row = out_.rows[i];
-    row.measured_lx = row.raw_lx - other.lux;
-    row.card_lx = other.lux;
-    row.card_sigma_lx = other.sigma_lx;
-    row.sigma_lx = std::hypot(SigmaLx(i), other.sigma_lx);
-  }
-
-  // Takes that mean from row i. False: there is none.
-  template <class Of>
-  bool Subtract(std::size_t i, const std::vector<std::size_t>& candidates, const Of& of) {
-    const std::optional<MeanLux> other = MeanOf(i, candidates, of);
-    if (other) TakeFrom(i, *other);
-    return other.has_value();
   }
 
   Result<void> SubtractShadows() {
@@ -183,10 +108,6 @@ class OtherLight {
     }
     Keep(consumed);
     return {};
-  }
-
-  [[nodiscard]] static bool SeesOtherLight(const Observation& row) {
-    return !row.data_sheet && !row.of_luminance;
   }
 
   // The least that the lamp gives at reading i by what it gives nearer: a quarter of it by the
@@ -240,51 +161,6 @@ class OtherLight {
     return {};
   }
 
-  // Whether what was read with the lamp off differs from place to place, beyond three standard
-  // deviations of each reading.
-  [[nodiscard]] bool Differ(const std::vector<std::size_t>& off) const {
-    constexpr double kDiffer = 3.0;
-    double least = std::numeric_limits<double>::infinity();
-    double most = 0.0;
-    for (const std::size_t j : off) {
-      const double lux = out_.rows[j].raw_lx;
-      least = std::min(least, lux + kDiffer * SigmaLx(j));
-      most = std::max(most, lux - kDiffer * SigmaLx(j));
-    }
-    return most > least;
-  }
-
-  // What was read with the lamp off, over all places: its mean, and how far from it another place
-  // may lie, by as few as were read.
-  [[nodiscard]] MeanLux Elsewhere(const std::vector<std::size_t>& off) const {
-    MeanLux out;
-    for (const std::size_t j : off) out.lux += out_.rows[j].raw_lx;
-    const auto n = static_cast<double>(off.size());
-    out.lux /= n;
-    if (off.size() < 2) return out;
-    double squares = 0.0;
-    for (const std::size_t j : off) squares += std::pow(out_.rows[j].raw_lx - out.lux, 2.0);
-    const double sd = std::sqrt(squares / (n - 1.0) * (1.0 + 1.0 / n));
-    out.sigma_lx = StudentOverNormal(n - 1.0) * sd;
-    return out;
-  }
-
-  [[nodiscard]] double Drift(std::size_t i, std::size_t j) const {
-    return DriftBetween(behind_[i].seconds, behind_[j].seconds,
-                        behind_[i].shadow || behind_[j].shadow);
-  }
-
-  // Of reading i, since the nearest in time of the candidates that are `of` it; relative, 1 sigma.
-  template <class Of>
-  [[nodiscard]] double DriftOf(std::size_t i, const std::vector<std::size_t>& candidates,
-                               const Of& of) const {
-    double least = kSigmaElsewhere;
-    for (const std::size_t j : candidates) {
-      if (of(j)) least = std::min(least, Drift(i, j));
-    }
-    return least;
-  }
-
   // What a card left is others' light or what walls send back of the lamp's own, which does not
   // drift: from none of it to all.
   [[nodiscard]] static double PartByOthers(const Observation& row) {
@@ -316,12 +192,6 @@ class OtherLight {
         least = least == 0.0 ? lux : std::min(least, lux);
       }
     }
-  }
-
-  [[nodiscard]] std::vector<std::size_t> RowsOff() const {
-    return RowsWhere([&](std::size_t j) {
-      return !out_.rows[j].lit && !behind_[j].shadow && !behind_[j].no_place;
-    });
   }
 
   // Other light that is one everywhere is a parameter. Where it differs from place to place, what
@@ -368,14 +238,6 @@ class OtherLight {
              " lx is kept with its sign: read again where the lamp is brighter"});
   }
 
-  [[nodiscard]] bool SamePlace(const Observation& row, std::size_t j) const {
-    if (!HasDistanceLaw(light_.kind)) return true;
-    const std::optional<Vec3>& there = out_.rows[j].position_m;
-    if (row.position_m && there) return Length(*row.position_m - *there) < kSamePlace_m;
-    return !behind_[j].no_place && SameDistance(row.distance_m, out_.rows[j].distance_m) &&
-           row.off_axis_rad == out_.rows[j].off_axis_rad;
-  }
-
   void FillSigmas() {
     double dimmest = std::numeric_limits<double>::infinity();
     double brightest = 0.0;
@@ -397,10 +259,6 @@ class OtherLight {
       row.sigma_lx = row.lit && row.raw_lx > 0.0 ? own : std::hypot(own, floor);
     }
   }
-
-  const LightDescription& light_;
-  Observations& out_;
-  std::vector<ReadingBehind> behind_;
 };
 
 }  // namespace
