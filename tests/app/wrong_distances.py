@@ -31,6 +31,11 @@ refused("model_misfit", "quick", *WRONG, "--room", "dark", says="softbox.*fixtur
 refused("model_misfit", "quick", *typed(100, 0.9, (0.5, 1.0, 2.0)), "--room", "dark", "--fixture", "bulb",
         says="0.9.? m behind")
 
+# A globe of 30 cm counted from its glass: as a bulb it is refused by that name, as a globe held.
+refused("model_misfit", "quick", *typed(100, 0.15), "--room", "dark", "--fixture", "bulb", says='globe.*kind = "sphere"')
+held, warned = answered(*typed(100, 0.15), "--kind", "sphere", "--diameter", "30cm")
+assert held and not warned, warned
+
 # From its mount a softbox's light starts there.
 for start in (-0.3, -0.2):
     held, warned = answered(*typed(100, start), "--fixture", "softbox")

@@ -217,6 +217,20 @@ std::string DistancesThatSuit(const Observations& observations, double usual_m) 
   return "; " + told(*far, *near) + ", or " + told(*near, *far) + ", would be an ordinary lamp's";
 }
 
+// Whether what is called a bulb starts where a globe does that is counted from its glass: at its
+// centre.
+bool StartsAsGlobe(const FoundOffset& found, const ForwardModel& model) {
+  constexpr double kSmallest_m = 0.05, kLargest_m = 0.35;  // radius
+  const auto a_point = [](const auto& one) { return one.width_m == 0.0; };
+  const OffsetPart of_bulb = OffsetParts(Fixture::kBulb).front();
+  const bool bulb = model.offsets.size() == 1 && model.offsets.front().mean_m == of_bulb.mean_m &&
+                    model.offsets.front().sd_m == of_bulb.sd_m &&
+                    model.shape.outline == AxialShape::Outline::kPoint &&
+                    model.surface_radius_m == 0.0 && std::ranges::all_of(model.walls, a_point) &&
+                    std::ranges::all_of(model.makes, a_point);
+  return bulb && found.metres > kSmallest_m && found.metres < kLargest_m;
+}
+
 std::string WhereItStarts(double offset_m) {
   return RoundedText(std::abs(offset_m), 2) + " m " + (offset_m < 0.0 ? "before" : "behind") +
          " the point that distances are counted from";
@@ -292,6 +306,11 @@ Result<void> CheckOffset(const FoundOffset& found, const ForwardModel& model, in
     std::string cause = BetweenPlaces(observations)
                             ? std::string(kAskForPlaces)
                             : "is a distance wrong, or counted from elsewhere on the lamp?";
+    if (StartsAsGlobe(found, model)) {
+      cause +=
+          " A globe counted from its glass starts there: describe it as kind = \"sphere\" with its "
+          "diameter.";
+    }
     if (unconfirmed) cause += " Read a third distance" + softbox;
     return Refused("model_misfit", light,
                    "no lamp gives these readings: their light would have to start " +
