@@ -11,6 +11,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/locate/locate_refusals.h"
 #include "lightcal/fit/locate/located_lamp.h"
+#include "lightcal/fit/locate/one_mistake.h"
 #include "lightcal/fit/locate/placed_modes.h"
 
 namespace lightcal::fit {
@@ -18,66 +19,6 @@ namespace {
 
 constexpr double kLargestCondition = 1000.0;
 constexpr double kLargestVagueness = 0.5;  // u95 of the position over the nearest distance
-constexpr double kOutlier = 4.685;
-
-// ---- one reading that spoils the others ----
-
-struct Kept {
-  PlacedProblem problem;
-  std::vector<PlacedSolution> solutions;
-  std::vector<int> rejected;  // rows of the problem as given
-};
-
-int FreeParameters(const PlacedEstimation& estimation) {
-  return 4 + (estimation.rules[kPlacedAmbient].free ? 1 : 0) +
-         (estimation.rules[kPlacedOffset].free ? 1 : 0);
-}
-
-int DegreesOfFreedom(const PlacedEstimation& estimation) {
-  const auto rows = std::ranges::count_if(
-      estimation.rows, [](const PlacedRow& row) { return row.form != RowForm::kCensored; });
-  return static_cast<int>(rows) - FreeParameters(estimation) +
-         (estimation.rules[kPlacedAmbient].prior_sd > 0.0 ? 1 : 0) +
-         (estimation.rules[kPlacedOffset].free ? 1 : 0);
-}
-
-PlacedProblem Without(const PlacedProblem& problem, std::size_t row) {
-  PlacedProblem out = problem;
-  const auto at = static_cast<std::ptrdiff_t>(row);
-  out.estimation.rows.erase(out.estimation.rows.begin() + at);
-  out.observation.erase(out.observation.begin() + at);
-  --out.lit;
-  return out;
-}
-
-// The row whose leaving explains the rest best, where it lies beyond kOutlier of what they say.
-bool RejectOne(Kept& kept) {
-  const PlacedEstimation& all = kept.problem.estimation;
-  // What an uneven lamp may take up is no proof that the rest agree.
-  const int taken_up = all.rules[kPlacedGradientX].free ? 3 : 0;
-  if (DegreesOfFreedom(all) - taken_up < 2 ||
-      kept.solutions.front().chi_squared < ChiSquared95(DegreesOfFreedom(all))) {
-    return false;
-  }
-  std::optional<Kept> best;
-  for (std::size_t i = 0; i < all.rows.size(); ++i) {
-    if (!(all.rows[i].direct_gain > 0.0)) continue;
-    Kept rest{Without(kept.problem, i), {}, kept.rejected};
-    rest.solutions = SearchPlace(rest.problem);
-    if (rest.solutions.empty()) continue;
-    const PlacedEstimation one{{all.rows[i]}, all.aim};
-    const double off = std::abs(PlacedResiduals(one, rest.solutions.front().theta).front());
-    const double chi_squared = rest.solutions.front().chi_squared;
-    const int dof = DegreesOfFreedom(rest.problem.estimation);
-    if (!(off > kOutlier) || chi_squared > ChiSquared95(dof)) continue;
-    if (best && best->solutions.front().chi_squared <= chi_squared) continue;
-    rest.rejected.push_back(kept.problem.observation[i]);
-    best = std::move(rest);
-  }
-  if (!best) return false;
-  kept = std::move(*best);
-  return true;
-}
 
 // ---- the answer ----
 
@@ -126,7 +67,8 @@ void FillResiduals(const Observations& observations, const PlacedProblem& all, c
     if (residual.facing_lx) *residual.facing_lx *= all.frame.lux;
     residual.relative = o.measured_lx / predicted - 1.0;
     residual.sigma_relative = o.measured_lx > 0.0 ? o.sigma_lx / o.measured_lx : 0.0;
-    residual.used = std::ranges::find(kept.rejected, all.observation[i]) == kept.rejected.end();
+    residual.used = std::ranges::find(kept.rejected, all.observation[i], &LeftOut::observation) ==
+                    kept.rejected.end();
     out.residuals.push_back(residual);
   }
 }
@@ -138,8 +80,8 @@ void FillDiagnostics(const Observations& observations, const Kept& kept, double 
   d.used = static_cast<int>(estimation.rows.size() + observations.subtracted.size()) -
            kept.problem.card_rows;
   d.rejected = observations.rejected;
-  for (const int row : kept.rejected) {
-    d.rejected.push_back(observations.rows[static_cast<std::size_t>(row)].index);
+  for (const LeftOut& one : kept.rejected) {
+    d.rejected.push_back(observations.rows[static_cast<std::size_t>(one.observation)].index);
   }
   std::ranges::sort(d.rejected);
   d.condition = condition;
@@ -173,13 +115,14 @@ void FillDiagnostics(const Observations& observations, const Kept& kept, double 
 
 void WarnOfRows(const Observations& observations, const Kept& kept, const std::string& light,
                 LightEstimate& out) {
-  for (const int row : kept.rejected) {
-    const Observation& o = observations.rows[static_cast<std::size_t>(row)];
-    out.warnings.push_back({"row_rejected", light,
-                            "reading " + std::to_string(o.index) + " (" +
-                                RoundedText(o.measured_lx, 4) +
-                                " lx) contradicts the place on which all others agree; it carries "
-                                "nothing: read again there, and check its position"});
+  for (const LeftOut& one : kept.rejected) {
+    const Observation& o = observations.rows[static_cast<std::size_t>(one.observation)];
+    out.warnings.push_back(
+        {"row_rejected", light,
+         "reading " + std::to_string(o.index) + " (" + RoundedText(o.measured_lx, 4) +
+             " lx) contradicts the place on which all others agree; it carries "
+             "nothing: read again there, and check its position" +
+             (one.correction.empty() ? "" : " (" + one.correction + " would agree)")});
   }
   const FitDiagnostics& d = out.diagnostics;
   if (d.chi2_dof && *d.chi2_dof * d.degrees_of_freedom > ChiSquared95(d.degrees_of_freedom)) {
@@ -339,8 +282,17 @@ Result<LampLocation> LocateLamp(const Observations& observations, const LightDes
   const Vec3* near_m = near != nullptr ? &near->position_m : nullptr;
   PlacedProblem all = PlacedProblemOf(observations, light, model, near_m);
   Kept kept{all, {}, {}};
+  if (near != nullptr) kept = WithoutThese(std::move(kept), near->left_out);
   kept.solutions = SearchPlace(kept.problem);
   HoldAmbientIfVague(kept);
+  // What a circle leaves open takes up any mistake.
+  if (near == nullptr && !NearlyOnOneCircle(kept.problem) && all.lit >= kFewestPlacedReadings) {
+    for (bool left_out = true; left_out;) {
+      const Result<bool> mistake = LeaveMistakeOut(kept, observations, model.walls, light.name);
+      if (!mistake) return tl::unexpected(mistake.error());
+      left_out = *mistake;
+    }
+  }
   if (kept.solutions.empty()) {
     return Refused("no_position", light.name,
                    "no place of the lamp explains these readings: check that each normal points "
@@ -353,8 +305,6 @@ Result<LampLocation> LocateLamp(const Observations& observations, const LightDes
     return RefuseLayout(asked, kept.solutions, light.name);
   };
   if (all.lit < kFewestPlacedReadings) return refuse_layout();
-  while (RejectOne(kept)) {
-  }
   if (OnOneCircleExactly(kept.problem) && !HasDistanceRow(kept.problem.estimation)) {
     return refuse_layout();
   }
@@ -391,6 +341,7 @@ Result<LampLocation> LocateLamp(const Observations& observations, const LightDes
   }
   out.estimate.variance_parts = PartsOf(modes, uncertainty, *mixed);
   out.estimate.ambient_free = estimation.rules[kPlacedAmbient].free;
+  out.left_out = kept.rejected;
   FillResiduals(observations, all, kept, out.estimate);
   FillEstimate(kept.problem.frame, mixed->theta, mixed->covariance, out);
   out.known = LocatedLampOf(kept.problem.frame, modes, *mixed);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/fit/estimate_light.h"
@@ -13,10 +14,17 @@
 
 namespace lightcal::fit {
 
+// A reading that contradicts all others.
+struct LeftOut {
+  int observation = 0;
+  std::string correction;  // what would agree: "x = 0.12 m rather than 1.2"; empty: nothing likely
+};
+
 struct LampLocation {
   Vec3 position_m{};
   std::array<double, 9> covariance_m2{};  // of the position, row by row
   LocatedLamp known;
+  std::vector<LeftOut> left_out;
   LightEstimate estimate;  // d0 = 0: distances count from the position found
 };
 
@@ -29,15 +37,16 @@ struct LampLocation {
 // layout has one and a scan of directions and distances. Readings without a normal face the lamp;
 // readings that give a distance alone join with an offset of their own, N(0, (0.15 d_min)^2).
 // Points and spheres shine evenly, disks and rectangles as cos from their aim, by their exact form
-// where `model.shape` says that their size counts. With more readings
-// than parameters by two, one beyond 4.7 sigma is rejected when the rest agree without it, again
-// while any is. Each of model.walls is weighed by its evidence, the answer mean and covariance of
+// where `model.shape` says that their size counts. One that
+// contradicts the others is left out or named (one_mistake.h); beside `near`, those that were left
+// out there. Each of model.walls is weighed by its evidence, the answer mean and covariance of
 // all. `model` adds what the effect gate decided (head size, influences that widen). Refused, each
 // with the reading that would help most: cocircular (meters of one normal on one circle or line),
 // mirror_ambiguous (two places explain the readings), position_unknown (fewer than four readings),
 // underdetermined (scaled condition beyond 1000, or a position no better known than half its
-// distance). Refused also: position_unknown (kinds whose beam has a shape), aim_unknown (disk,
-// rect), over_range, no_valid_readings, no_position (no place explains the normals).
+// distance). Refused also: model_misfit (one_mistake.h), position_unknown (kinds whose beam has a
+// shape), aim_unknown (disk, rect), over_range, no_valid_readings, no_position (no place explains
+// the normals).
 [[nodiscard]] Result<LampLocation> LocateLamp(const Observations& observations,
                                               const LightDescription& light,
                                               const ForwardModel& model,

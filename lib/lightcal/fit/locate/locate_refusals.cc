@@ -127,6 +127,8 @@ std::optional<Circle> OnOneCircle(const PlacedProblem& problem) {
 
 }  // namespace
 
+bool NearlyOnOneCircle(const PlacedProblem& problem) { return OnOneCircle(problem).has_value(); }
+
 bool OnOneCircleExactly(const PlacedProblem& problem) {
   const auto circle = OnOneCircle(problem);
   return circle && circle->exact;

@@ -14,6 +14,7 @@ inline constexpr int kFewestPlacedReadings = 4;    // ln I and three coordinates
 inline constexpr double kAllowedChiSquared = 9.0;  // beyond the best: what the readings allow
 
 // Whether all lit readings are of one normal, in one plane, on one circle or line exactly.
+[[nodiscard]] bool NearlyOnOneCircle(const PlacedProblem& problem);
 [[nodiscard]] bool OnOneCircleExactly(const PlacedProblem& problem);
 
 // position_unknown (fewer than four readings), cocircular or underdetermined.

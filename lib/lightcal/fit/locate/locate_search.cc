@@ -190,21 +190,6 @@ std::vector<PlacedTheta> StartsOf(const PlacedProblem& problem) {
   return starts;
 }
 
-std::vector<PlacedSolution> SolveFrom(const PlacedEstimation& estimation,
-                                      const std::vector<PlacedTheta>& starts) {
-  std::vector<PlacedSolution> out;
-  for (const PlacedTheta& start : starts) {
-    const auto theta = SolvePlaced(estimation, start);
-    if (!theta) continue;
-    const double chi_squared = PlacedChiSquared(estimation, *theta);
-    if (std::isfinite(chi_squared)) out.push_back({*theta, chi_squared});
-  }
-  std::ranges::sort(out, [](const PlacedSolution& a, const PlacedSolution& b) {
-    return a.chi_squared < b.chi_squared;
-  });
-  return out;
-}
-
 }  // namespace
 
 void SetWalls(const WallPrior& prior, PlacedEstimation& estimation) {
@@ -246,6 +231,21 @@ PlacedProblem PlacedProblemOf(const Observations& observations, const LightDescr
     out.estimation.rules[kPlacedLnIntensity] = {true, model.sheet->ln_cd - ln_unit,
                                                 model.sheet->sd};
   }
+  return out;
+}
+
+std::vector<PlacedSolution> SolveFrom(const PlacedEstimation& estimation,
+                                      const std::vector<PlacedTheta>& starts) {
+  std::vector<PlacedSolution> out;
+  for (const PlacedTheta& start : starts) {
+    const auto theta = SolvePlaced(estimation, start);
+    if (!theta) continue;
+    const double chi_squared = PlacedChiSquared(estimation, *theta);
+    if (std::isfinite(chi_squared)) out.push_back({*theta, chi_squared});
+  }
+  std::ranges::sort(out, [](const PlacedSolution& a, const PlacedSolution& b) {
+    return a.chi_squared < b.chi_squared;
+  });
   return out;
 }
 

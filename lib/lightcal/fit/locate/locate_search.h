@@ -53,6 +53,10 @@ void SetWalls(const WallPrior& prior, PlacedEstimation& estimation);
                                             const ForwardModel& model,
                                             const Vec3* near_m = nullptr);
 
+// The minima that these starts lead to, best first.
+[[nodiscard]] std::vector<PlacedSolution> SolveFrom(const PlacedEstimation& estimation,
+                                                    const std::vector<PlacedTheta>& starts);
+
 // Every minimum that the starts lead to, best first: found with the ambient light held, then with
 // it free from each place that may still win (beside it, hopeless starts creep for a long time).
 [[nodiscard]] std::vector<PlacedSolution> SearchPlace(const PlacedProblem& problem);

@@ -10,7 +10,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/stops.h"
-#include "lightcal/fit/model/data_sheet.h"
+#include "lightcal/fit/plan/instrument_limit.h"
 #include "lightcal/fit/plan/reading_candidates.h"
 #include "lightcal/fit/plan/reading_trial.h"
 #include "lightcal/records/display_step.h"
@@ -113,7 +113,7 @@ class Planner {
     MinutesLadder ladder;
     ladder.light = Light().name;
     if (auto begun = Begin(ladder.u95_relative); !begun) return Propagate(std::move(begun));
-    ladder.meter_u95_relative = LeftBy(SharedCalibration()).relative;
+    ladder.meter_u95_relative = LeftBy(fit::SharedCalibrationOf(session_, like_)).relative;
     std::optional<Left> left;
     if (ladder.u95_relative) {
       ladder.u95_stops = fit::StopsLeft(*now_);
@@ -168,53 +168,9 @@ class Planner {
         PlannedReading{PlannedAction::kRead, reading.distance, reading.position_m, reading.normal};
   }
 
-  // 1 sigma of what the calibrations of all instruments that read leave together, relative; 0 where
-  // the readings of one share nothing.
-  [[nodiscard]] double SharedCalibration() const {
-    std::map<std::string, double> of_instrument;
-    of_instrument[InstrumentOf(like_)] = CalibrationRelative(session_, like_);
-    for (const SessionReading& row : session_.readings) {
-      if (!IsLit(row.reading)) continue;
-      of_instrument[InstrumentOf(row.reading)] = CalibrationRelative(session_, row.reading);
-    }
-    double information = 0.0;
-    for (const auto& [instrument, calibration] : of_instrument) {
-      if (!(calibration > 0.0)) return 0.0;
-      information += 1.0 / (calibration * calibration);
-    }
-    return 1.0 / std::sqrt(information);
-  }
-
-  // 1 sigma, relative, of an intensity of which these readings and one more were all that is not
-  // known. None where a data sheet speaks too.
-  [[nodiscard]] std::optional<double> LeastDeviation() const {
-    if (fit::HasDataSheet(Light())) return std::nullopt;
-    struct Instrument {
-      double calibration = 0.0, information = 0.0;  // of its repeated readings
-    };
-    std::map<std::string, Instrument> instruments;
-    const auto count = [&](const Reading& reading) {
-      const double repeatability = RepeatabilityRelative(session_, reading);
-      const double calibration = CalibrationRelative(session_, reading);
-      Instrument& one =
-          instruments.try_emplace(InstrumentOf(reading), Instrument{calibration}).first->second;
-      one.calibration = std::min(one.calibration, calibration);
-      one.information += 1.0 / (repeatability * repeatability);
-    };
-    count(like_);
-    for (const SessionReading& row : session_.readings) {
-      if (row.reading.illuminance) count(row.reading);
-    }
-    double information = 0.0;
-    for (const auto& [name, one] : instruments) {
-      information += 1.0 / (one.calibration * one.calibration + 1.0 / one.information);
-    }
-    return 1.0 / std::sqrt(information);
-  }
-
   // More than any one reading takes off ln of what is left.
   [[nodiscard]] double MostGain(const Left& before) const {
-    const std::optional<double> deviation = LeastDeviation();
+    const std::optional<double> deviation = fit::LeastDeviation(session_, like_);
     if (!deviation) return std::numeric_limits<double>::infinity();
     const Left least = LeftBy(*deviation);
     const double of_relative = std::log(before.relative / least.relative);
