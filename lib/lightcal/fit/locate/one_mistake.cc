@@ -25,7 +25,7 @@ constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 constexpr double kMistaken = 0.15;  // sessions that hold a mistake
 // Those that hold light which nobody read with the lamp off, of dark ones and of ones outdoors.
 constexpr double kOtherLight = 0.03, kOtherLightOutdoors = 0.5;
-constexpr double kUneven = 0.2;     // points of no stated fixture that shine as a bulb does
+constexpr double kUneven = 0.5;     // points of no stated fixture that shine as a bulb does
 constexpr double kThoughtOf = 0.1;  // of chi-squared, below which a mistake is thought of
 // Of a reading that is wrong in no way people are known to be: ln of its density is as of any value
 // within a factor of e^6, sqrt(2 pi) as evidence.h leaves it out.
@@ -374,6 +374,7 @@ Result<bool> LeaveMistakeOut(Kept& kept, const Observations& observations,
   std::size_t count = 1;
   while (count < suspects.size() && held_by(count) < kClear / (kClear + 1.0)) ++count;
   const bool few = count <= kMostNamed && held_by(count) >= kClear / (kClear + 1.0);
+  if (!few && kept.solutions.empty()) return false;  // no place at all says more
   return RefuseMistake(kept, std::span(suspects).first(few ? count : 0), observations, light);
 }
 
