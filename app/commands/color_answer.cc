@@ -48,7 +48,7 @@ std::string_view WhyNoCct(const ColorAnswer& answer) {
 Node RgbNode(const ColorAnswer& answer) {
   Node rgb = Node::Table();
   for (const NamedSpace& space : kSpaces) {
-    const Rgb c = RgbOf(answer.xy, space.space, answer.extras);
+    const Rgb c = RgbOf(answer.xy, space, answer.extras);
     rgb.Put(space.key, {c.r, c.g, c.b});
   }
   return rgb;
@@ -140,7 +140,7 @@ std::string TableOfOne(const ColorAnswer& answer) {
   row("u  v", coordinates(uv.u, uv.v), "");
   row("u' v'", coordinates(uv76.u, uv76.v), "");
   for (const NamedSpace& space : kSpaces) {
-    const Rgb c = RgbOf(answer.xy, space.space, answer.extras);
+    const Rgb c = RgbOf(answer.xy, space, answer.extras);
     row(std::string(space.title), Fixed(c.r, 5) + "  " + Fixed(c.g, 5) + "  " + Fixed(c.b, 5), "");
   }
   if (answer.efficacy) {

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "color_spaces.h"
 #include "color_words.h"
 #include "lightcal/colorimetry/engine_kelvin.h"
 #include "lightcal/core/joined.h"
@@ -53,7 +52,7 @@ std::vector<std::string> SpacesWithout(Xy xy, const ColorExtras& extras) {
   untouched.gamut = GamutPolicy::kKeep;
   std::vector<std::string> names;
   for (const NamedSpace& each : kSpaces) {
-    if (!IsInGamut(RgbOf(xy, each.space, untouched))) names.emplace_back(each.key);
+    if (!IsInGamut(RgbOf(xy, each, untouched))) names.emplace_back(each.key);
   }
   return names;
 }
@@ -184,12 +183,12 @@ Result<ColorExtras> ParseColorExtras(const ColorExtraOptions& options) {
   return extras;
 }
 
-Rgb RgbOf(Xy xy, RgbSpace space, const ColorExtras& extras) {
+Rgb RgbOf(Xy xy, const NamedSpace& named, const ColorExtras& extras) {
+  const RgbSpace space = named.space;
+  const Xy as_it_stands = named.of_scene ? kSceneWhite : PrimariesOf(space).white;
   Xyz color = XyzFromXyAtUnitY(xy);
-  if (extras.white) {
-    const Xyz adapted = AdaptBradford(color, *extras.white, PrimariesOf(space).white);
-    if (adapted.Y > 0.0) color = {adapted.X / adapted.Y, 1.0, adapted.Z / adapted.Y};
-  }
+  const Xyz adapted = AdaptedToSpace(color, extras.white.value_or(as_it_stands), space);
+  if (adapted.Y > 0.0) color = {adapted.X / adapted.Y, 1.0, adapted.Z / adapted.Y};
   return FitToGamut(LinearRgbFromXyz(color, space), space, extras.gamut);
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "color_spaces.h"
 #include "console.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/cct_noise.h"
@@ -39,7 +40,7 @@ struct ColorExtras {
 [[nodiscard]] Result<ColorExtras> ParseColorExtras(const ColorExtraOptions& options);
 
 // Y = 1 before the gamut policy.
-[[nodiscard]] Rgb RgbOf(Xy xy, RgbSpace space, const ColorExtras& extras);
+[[nodiscard]] Rgb RgbOf(Xy xy, const NamedSpace& space, const ColorExtras& extras);
 
 // What was found out about one colour.
 struct ColorFindings {

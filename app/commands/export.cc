@@ -98,8 +98,10 @@ Run BuildExport(CLI::App& parser) {
       ->capture_default_str();
   parser.add_option("--space", options->space, "Linear RGB of the colours [rec709]")
       ->check(OneOf(kSpaceWords));
-  parser.add_option("--white", options->white,
-                    "What the pipeline shows as white: 3200K, D65 or x,y [no adaptation]");
+  parser.add_option(
+      "--white", options->white,
+      "What the pipeline shows as white, adapted (Bradford) to the space's own: 3200K, D65 or "
+      "x,y; 0.32168,0.33767 with acescg adapts nothing [D65]");
   parser.add_option("--range", options->range,
                     "Range of the engine's lights; intensities are refitted in it [no limit]");
   parser

@@ -17,7 +17,7 @@ export interface Warning { code: string; subject: string; message: string }
 export interface Color {
   xy: [number, number]; uv1960: [number, number]; uv1976: [number, number];
   cct_K?: number; duv?: number; cct_valid: boolean;
-  rgb: Record<'srgb_linear' | 'acescg' | 'rec2020' | 'display_p3', [number, number, number]>;
+  rgb: Record<'srgb_linear' | 'acescg' | 'acescg_d65' | 'rec2020' | 'display_p3', [number, number, number]>;
   [key: string]: unknown;
 }
 export interface Exposure { ev: number; ev100: number; l_max_nits: number; exposure: number; [key: string]: unknown }

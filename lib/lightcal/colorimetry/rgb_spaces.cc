@@ -87,4 +87,10 @@ Xyz AdaptBradford(const Xyz& color, Xy from, Xy to) {
   return {out[0], out[1], out[2]};
 }
 
+Xyz AdaptedToSpace(const Xyz& color, Xy scene_white, RgbSpace space) {
+  const Xy own = PrimariesOf(space).white;
+  const bool same = scene_white.x == own.x && scene_white.y == own.y;
+  return same ? color : AdaptBradford(color, scene_white, own);
+}
+
 }  // namespace lightcal

@@ -54,4 +54,12 @@ struct RgbPrimaries {
 // Source: Lam 1985; ICC.1:2022 annex E.
 [[nodiscard]] Xyz AdaptBradford(const Xyz& color, Xy from, Xy to);
 
+// What a renderer's scene means by white unless its pipeline was neutralised to another: D65, also
+// where its space has a white of its own. OpenColorIO's ACES configurations adapt what is made for
+// D65 (textures in sRGB, Rec. 709, P3) to ACEScg's 6000 K by Bradford, so that 1, 1, 1 stays
+// 1, 1, 1; a lamp of D65 beside them must be 1, 1, 1, too.
+inline constexpr Xy kSceneWhite = {0.3127, 0.3290};
+// A colour as a scene of that white holds it in the space: adapted to the space's own white.
+[[nodiscard]] Xyz AdaptedToSpace(const Xyz& color, Xy scene_white, RgbSpace space);
+
 }  // namespace lightcal

@@ -234,14 +234,17 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
     }
     list.items.push_back(std::move(document));
   }
-  const auto text = JsonText({{"name", name},
-                              {"lumens_per_watt", kLumensPerWatt},
-                              {"lights", std::move(list)},
-                              {"exposure", NodeOf(rig.exposure)},
-                              {"into", IntoNode(options.into)},
-                              {"rig", options.rig ? NodeOf(rig) : Node()},
-                              {"provenance", NodeOf(lights.provenance)}},
-                             name + ".blender.py");
+  const bool plain = options.color.space == RgbSpace::kSrgb;
+  const auto text =
+      JsonText({{"name", name},
+                {"lumens_per_watt", kLumensPerWatt},
+                {"color_space", plain ? Node() : Node(RgbSpaceWord(options.color.space))},
+                {"lights", std::move(list)},
+                {"exposure", NodeOf(rig.exposure)},
+                {"into", IntoNode(options.into)},
+                {"rig", options.rig ? NodeOf(rig) : Node()},
+                {"provenance", NodeOf(lights.provenance)}},
+               name + ".blender.py");
   if (!text) return tl::unexpected(text.error());
   preset.files.push_back(
       {name + ".blender.py", ScriptWith("blender.py", WithoutApostrophes(*text))});

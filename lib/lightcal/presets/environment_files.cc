@@ -23,10 +23,8 @@ Matrix3 FromRec709(const ColorTarget& color) {
   Matrix3 out{};
   for (std::size_t c = 0; c < 3; ++c) {
     Xyz column{xyz[0][c], xyz[1][c], xyz[2][c]};
-    if (color.white) {
-      const Xyz adapted = AdaptBradford(column, *color.white, PrimariesOf(color.space).white);
-      column = {adapted.X, column.Y, adapted.Z};
-    }
+    const Xyz adapted = AdaptedToSpace(column, color.SceneWhite(), color.space);
+    column = {adapted.X, column.Y, adapted.Z};
     const Column3 rgb = Times(back, {column.X, column.Y, column.Z});
     for (std::size_t row = 0; row < 3; ++row) out[row][c] = rgb[row];
   }

@@ -200,8 +200,9 @@ std::string Snippet(const Node& lights, const Node& exposure) {
 }  // namespace
 
 Result<Preset> ExportFilament(const LightFile& lights, const std::string& stem,
-                              const PresetOptions& options) {
+                              const PresetOptions& asked) {
   Preset preset;
+  const PresetOptions options = preset_text::InRec709(asked, "filament", preset.warnings);
   const auto forms = PresetLightsFrom(lights, kFilament, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   const auto refits =

@@ -368,8 +368,9 @@ Gltf WithLights(const LightFile& file, const std::string& stem,
 }  // namespace
 
 Result<Preset> ExportGltf(const LightFile& lights, const std::string& stem,
-                          const PresetOptions& options) {
+                          const PresetOptions& asked) {
   Preset preset;
+  const PresetOptions options = preset_text::InRec709(asked, "gltf", preset.warnings);
   const auto punctual = PunctualLightsFrom(lights, preset.warnings, options.color);
   if (!punctual) return tl::unexpected(punctual.error());
   auto ies = IesFiles(lights, stem);

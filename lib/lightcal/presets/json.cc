@@ -38,7 +38,7 @@ Node Pair(const std::optional<Xy>& xy) { return xy ? Node{xy->x, xy->y} : Node()
 Node PipelineColor(const EmittedColor& color) {
   if (!color.target.white && color.target.space == RgbSpace::kSrgb) return {};
   Node document = {{"space", RgbSpaceWord(color.target.space)},
-                   {"white_xy", Pair(color.target.white)}};
+                   {"white_xy", Pair(color.target.SceneWhite())}};
   document.Put(RgbOf(color));
   return document;
 }

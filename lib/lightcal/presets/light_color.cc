@@ -25,11 +25,8 @@ bool HasColor(const std::optional<Xy>& xy) {
 }
 
 Rgb LinearAtUnitLuminance(Xy xy, const ColorTarget& target) {
-  Xyz color = XyzFromXyAtUnitY(xy);
-  if (target.white) {
-    color = AdaptBradford(color, *target.white, PrimariesOf(target.space).white);
-    color = {color.X / color.Y, 1.0, color.Z / color.Y};
-  }
+  Xyz color = AdaptedToSpace(XyzFromXyAtUnitY(xy), target.SceneWhite(), target.space);
+  color = {color.X / color.Y, 1.0, color.Z / color.Y};
   return LinearRgbFromXyz(color, target.space);
 }
 
@@ -67,8 +64,27 @@ std::string SpaceTitle(RgbSpace space) {
   return {};
 }
 
-void WarnOfClipping(const std::string& light, const Rgb& color, RgbSpace space,
+// The first of the wider spaces that holds it; "" = none does.
+std::string_view SpaceThatHolds(Xy xy, const std::optional<Xy>& white) {
+  for (const RgbSpace space : {RgbSpace::kRec2020, RgbSpace::kAcescg}) {
+    const Rgb c = LinearAtUnitLuminance(xy, {space, white});
+    if (std::min({c.r, c.g, c.b}) >= 0.0) return RgbSpaceWord(space);
+  }
+  return {};
+}
+
+// How far apart two colours of one space look, on CIE's uniform scale of 1976: 0.0011 is a just
+// noticeable step.
+double DeltaUv(const Rgb& a, const Rgb& b, RgbSpace space) {
+  const Uv1976 p = Uv1976FromXy(XyFromXyz(XyzFromLinearRgb(a, space)));
+  const Uv1976 q = Uv1976FromXy(XyFromXyz(XyzFromLinearRgb(b, space)));
+  return std::hypot(p.u - q.u, p.v - q.v);
+}
+
+void WarnOfClipping(const std::string& light, Xy xy, const EmittedColor& emitted,
                     Warnings& warnings) {
+  const Rgb& color = emitted.unit_luminance;
+  const RgbSpace space = emitted.target.space;
   const std::array<std::pair<const char*, double>, 3> components = {
       {{"red", color.r}, {"green", color.g}, {"blue", color.b}}};
   std::string clipped;
@@ -77,9 +93,16 @@ void WarnOfClipping(const std::string& light, const Rgb& color, RgbSpace space,
     clipped += (clipped.empty() ? "" : ", ") + std::string(name) + " " + RoundedText(value, 2);
   }
   if (clipped.empty()) return;
+  const std::string_view wider = SpaceThatHolds(xy, emitted.target.white);
+  const bool holds = !wider.empty() && wider != RgbSpaceWord(space);
   warnings.push_back({"out_of_gamut", light,
                       "the colour lies outside " + SpaceTitle(space) + " (linear " + clipped +
-                          " at Y = 1), clipped to 0: slightly too pale, luminance kept"});
+                          " at Y = 1), clipped to 0: too pale by " +
+                          RoundedText(DeltaUv(color, emitted.max_normalised, space), 2) +
+                          " in u'v', luminance kept" +
+                          (holds ? "; {color.space} " + std::string(wider) +
+                                       " holds it, in engines that can work in it"
+                                 : "")});
 }
 
 }  // namespace
@@ -112,7 +135,7 @@ EmittedColor ColorOfLight(const FittedLight& light, const ColorTarget& target, W
   color.max_normalised = MaxNormalised(color.unit_luminance);
   color.luminance = LuminanceOfRgb(color.max_normalised, target.space);
   color.luminance_u95 = LuminanceU95(light.color, target);
-  WarnOfClipping(light.name, color.unit_luminance, target.space, warnings);
+  WarnOfClipping(light.name, *xy, color, warnings);
   return color;
 }
 

@@ -14,10 +14,12 @@ namespace lightcal {
 
 // The RGB space a pipeline works in, linear. With a white, the pipeline is neutralised to it: its
 // pictures show that white as R = G = B, so the lamp's colour is adapted from it to the space's own
-// (Bradford), luminance kept.
+// (Bradford), luminance kept. Without one that white is D65 (kSceneWhite).
 struct ColorTarget {
   RgbSpace space = RgbSpace::kSrgb;
   std::optional<Xy> white{};
+
+  [[nodiscard]] Xy SceneWhite() const { return white.value_or(kSceneWhite); }
 };
 [[nodiscard]] std::string_view RgbSpaceWord(RgbSpace space);  // "rec709", "acescg", ...
 

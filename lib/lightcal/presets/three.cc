@@ -199,8 +199,9 @@ Node ThreeNode(const FittedLight& lamp, const PresetLight& light, const std::str
 }  // namespace
 
 Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
-                           const PresetOptions& options) {
+                           const PresetOptions& asked) {
   Preset preset;
+  const PresetOptions options = preset_text::InRec709(asked, "three", preset.warnings);
   const auto forms = PresetLightsFrom(lights, kThree, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
   const auto ies = IesFiles(lights, stem);

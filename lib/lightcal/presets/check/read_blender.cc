@@ -15,11 +15,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-EngineLight FromBlender(const Json& json, double lumens_per_watt) {
+EngineLight FromBlender(const Json& json, double lumens_per_watt, const std::string& space) {
   EngineLight light;
   light.name = json.at("name").get<std::string>();
   const std::string type = json.at("type").get<std::string>();
-  const double y = LuminanceFrom(json.at("color"));
+  const double y = LuminanceOfSpace(space, VecFrom(json.at("color")));
   light.offset_m = OffsetIn(json.value("measured", Json()));
   if (type == "WORLD") {
     light.kind = EngineLightKind::kDome;
@@ -81,7 +81,8 @@ std::vector<EngineLight> ReadBlender(const std::string& text, const FileText& /*
   const Json root = Json::parse(ObjectFrom(text, text.find("json.loads(r'''")));
   std::vector<EngineLight> lights;
   for (const Json& json : root.at("lights")) {
-    lights.push_back(FromBlender(json, root.at("lumens_per_watt").get<double>()));
+    lights.push_back(FromBlender(json, root.at("lumens_per_watt").get<double>(),
+                                 root.value("color_space", std::string())));
   }
   return lights;
 }

@@ -21,6 +21,19 @@ void TakeTable(EngineLight& light, const std::string& photometric) {
   if (light.name.empty()) light.name = read->file.header.luminaire;
 }
 
+double LuminanceOfSpace(std::string_view space, const Vec3& rgb) {
+  // The middle rows of their matrices to XYZ: SMPTE EG 432-1, Rec. BT.2020, S-2014-004.
+  struct Weights {
+    std::string_view space;
+    Vec3 of;
+  };
+  constexpr std::array kWeights = {Weights{"p3", {0.2289746, 0.6917385, 0.0792869}},
+                                   Weights{"rec2020", {0.2627002, 0.6779981, 0.0593017}},
+                                   Weights{"acescg", {0.2722287, 0.6740818, 0.0536895}}};
+  const auto known = std::ranges::find(kWeights, space, &Weights::space);
+  return known == kWeights.end() ? Rec709Luminance(rgb) : Dot(known->of, rgb);
+}
+
 void RequireFinite(const std::vector<EngineLight>& lights) {
   const auto finite = [](const Vec3& v) {
     return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);

@@ -24,6 +24,9 @@ template <class Rgb>
   return 0.2126390 * rgb[0] + 0.7151687 * rgb[1] + 0.0721923 * rgb[2];
 }
 
+// The same of the space a preset says it is written in ("acescg"); "" = Rec. 709.
+[[nodiscard]] double LuminanceOfSpace(std::string_view space, const Vec3& rgb);
+
 // Throws where a light has a NaN or infinity.
 void RequireFinite(const std::vector<EngineLight>& lights);
 // The value; throws where it is not above 0, naming `what`.
