@@ -361,6 +361,10 @@ EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam, double inner_sh
   return JudgedCone(TermsAt(law, best.second), samples);
 }
 
+EngineCone JudgeCone(EngineConeLaw law, const SpotCone& cone, const BeamProfile& beam) {
+  return JudgedCone(TermsOf(law, cone.inner.value(), cone.outer.value(), 1.0), SamplesOf(beam));
+}
+
 std::string ConeErrorText(const EngineCone& cone) {
   constexpr double kNothing = 1e-3;
   const double flux = cone.flux - 1.0;

@@ -66,6 +66,10 @@ inline constexpr double kConeFluxError = 0.022;
 // The same where the engine's inner angle is this share of its outer one, whatever it is told.
 [[nodiscard]] EngineCone RefitCone(EngineConeLaw law, const BeamProfile& beam, double inner_share);
 
+// What a cone of that law with these angles, kPower aside, makes of the beam.
+[[nodiscard]] EngineCone JudgeCone(EngineConeLaw law, const SpotCone& cone,
+                                   const BeamProfile& beam);
+
 // "off the axis within 6.6 % of the axial intensity (at 22 degrees), flux 1.6 % low"; "" where both
 // are below 0.1 %.
 [[nodiscard]] std::string ConeErrorText(const EngineCone& cone);

@@ -76,9 +76,12 @@ void DropUnasked(const Warnings& said, Warnings& warnings) {
   });
 }
 
+// What a lamp becomes in some formats and not in others: said by their names.
+bool IsOfAFormat(const Warning& w) { return w.code == "substituted" || w.code == "cone_profile"; }
+
 // What was said of a lamp's substitute, and by which formats.
 struct Substituted {
-  std::string lamp, message;
+  std::string code, lamp, message;
   double strays = 0.0;
   std::vector<std::string_view> formats;
 };
@@ -86,29 +89,31 @@ struct Substituted {
 void NoteSubstitutes(std::string_view format, const Warnings& warnings,
                      std::vector<Substituted>& said) {
   for (const Warning& w : warnings) {
-    if (w.code != "substituted") continue;
+    if (!IsOfAFormat(w)) continue;
     const auto known = std::ranges::find_if(said, [&](const Substituted& one) {
-      return one.lamp == w.subject && one.message == w.message;
+      return one.code == w.code && one.lamp == w.subject && one.message == w.message;
     });
     if (known == said.end()) {
-      said.push_back({w.subject, w.message, w.strays, {format}});
+      said.push_back({w.code, w.subject, w.message, w.strays, {format}});
     } else if (known->formats.back() != format) {
       known->formats.push_back(format);
     }
   }
 }
 
-// Of several formats the one that strays most is what is said, by its name.
-void SayWorst(const std::vector<Substituted>& said, Warnings& warnings) {
+// Each by the names of the formats it is true of; of formats nobody asked for by name, of a lamp
+// the one that strays most.
+void SayOfWhich(const std::vector<Substituted>& said, bool only_worst, Warnings& warnings) {
   for (Warning& w : warnings) {
-    if (w.code != "substituted") continue;
-    const Substituted* worst = nullptr;
+    if (!IsOfAFormat(w)) continue;
+    const Substituted* told = nullptr;
     for (const Substituted& one : said) {
-      if (one.lamp != w.subject) continue;
-      if (worst == nullptr || one.strays > worst->strays) worst = &one;
+      if (one.code != w.code || one.lamp != w.subject) continue;
+      const bool better =
+          only_worst ? told == nullptr || one.strays > told->strays : one.message == w.message;
+      if (better) told = &one;
     }
-    if (worst == nullptr || worst->message == w.message) continue;
-    w.message = Joined(worst->formats, ",") + ": " + worst->message;
+    if (told != nullptr) w.message = Joined(told->formats, ", ") + ": " + told->message;
   }
 }
 
@@ -168,7 +173,8 @@ Result<ExportedPresets> ExportTargets(const LightFile& all_lights,
       one.rig_place = rig.value_or(RigPlace{});
       auto preset = target.exporter(lights, stem, one);
       if (!preset) return Propagate(std::move(preset));
-      NoteSubstitutes(target.name, preset->warnings, said);
+      // What is no engine's (json) holds the lamp itself.
+      if (target.place_in_report > 0) NoteSubstitutes(target.name, preset->warnings, said);
       progress.Done();
       if (targets.empty()) DropUnasked(all.warnings, preset->warnings);
       AddOnce(preset->warnings, all.warnings);
@@ -178,7 +184,7 @@ Result<ExportedPresets> ExportTargets(const LightFile& all_lights,
       }
     }
   }
-  if (targets.empty()) SayWorst(said, all.warnings);
+  SayOfWhich(said, targets.empty(), all.warnings);
   KeepFirstOfEachName(all.files);
   return all;
 }

@@ -210,6 +210,28 @@ std::string LightPrim(const std::string& name, const FittedLight& lamp, const Pr
 
 // ---- lights that are there ----
 
+// What a light that is there may shape its beam with and the lamp does not: left alone, a bulb set
+// onto a spot stays a spot. Inert where the prim has no such schema. A light at infinity has no
+// beam.
+std::string UndoneShaping(const PresetLight& light, const DerivedLight& derived, bool table) {
+  std::string text;
+  if (light.form == LightForm::kRect) text += "    asset inputs:texture:file = None\n";
+  if (light.form == LightForm::kDirectional || light.form == LightForm::kDome) return text;
+  const auto rest = [&](const std::string& field, double value) {
+    DerivedField one{"shaping:" + field, {value}};
+    if (derived.Find(one.name) == nullptr) text += UsdField(one, "    ");
+  };
+  rest("cone:angle", 180.0);
+  rest("cone:softness", 0.0);
+  rest("focus", 0.0);
+  if (table) {
+    rest("ies:angleScale", 0.0);
+  } else {
+    text += "    asset inputs:shaping:ies:file = None\n";
+  }
+  return text;
+}
+
 std::string OpinionsText(const DerivedLight& derived) {
   std::string text;
   for (const DerivedField& field : derived.fields) text += UsdField(field, "    ");
@@ -226,7 +248,8 @@ UsdOpinions OpinionsOf(const PresetLight& light, const DerivedLight& derived,
   const bool sized = light.form != LightForm::kPoint && light.form != LightForm::kSpot && !table;
   over.body = "  # " + derived.type + " of lightcal's " + Quoted(light.name()) +
               (sized ? "" : "; no size was measured: 5 mm, and so many nits") + "\n" +
-              OpinionsText(derived) + IesFigures(table ? &*ies : nullptr);
+              OpinionsText(derived) + UndoneShaping(light, derived, table) +
+              IesFigures(table ? &*ies : nullptr);
   // As deep as the layer indents the prim they stand in.
   for (std::size_t at = 0; (at = over.body.find("\n    ", at)) != std::string::npos; ++at) {
     over.body.erase(at + 1, 2);
