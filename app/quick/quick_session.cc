@@ -15,20 +15,27 @@ namespace lightcal::app {
 namespace {
 
 // Fills an optional quantity from an option's text; an empty text leaves it absent.
+// Wrong usage, of that option: what is below its least value.
+enum class Least { kAboveZero, kFromZero };
 template <class Unit, class Parse>
-Result<void> Fill(std::optional<Unit>& target, const std::string& text, Parse parse) {
+Result<void> Fill(std::optional<Unit>& target, const char* option, const std::string& text,
+                  Parse parse, Least least = Least::kAboveZero) {
   if (text.empty()) return {};
   const auto value = parse(text);
   if (!value) return tl::unexpected(value.error());
-  if (!(value->value() > 0.0)) return WrongUsage(text, "must be above zero");
+  const bool from_zero = least == Least::kFromZero;
+  if (!(from_zero ? value->value() >= 0.0 : value->value() > 0.0)) {
+    return WrongUsage(
+        option, "\"" + text + "\" must " + (from_zero ? "not be below zero" : "be above zero"));
+  }
   target = Unit(*value);
   return {};
 }
 
 template <class Unit>
-Result<void> FillPlain(std::optional<Unit>& target, const std::string& text,
+Result<void> FillPlain(std::optional<Unit>& target, const char* option, const std::string& text,
                        std::string_view unit_word) {
-  return Fill(target, text, [unit_word](const std::string& t) -> Result<Unit> {
+  return Fill(target, option, text, [unit_word](const std::string& t) -> Result<Unit> {
     const auto split = SplitNumberAndUnit(t);
     if (!split) return tl::unexpected(split.error());
     if (!split->unit.empty() && LowerAscii(split->unit) != LowerAscii(unit_word)) {
@@ -102,15 +109,20 @@ Result<LightDescription> DescribeLight(const QuickOptions& options) {
   std::optional<Radians> inner = std::nullopt;
   std::optional<Radians> outer = std::nullopt;
   for (const Result<void>& filled :
-       {Fill(light.diameter, options.diameter, [](const auto& t) { return ParseLength(t); }),
-        Fill(light.length, options.length, [](const auto& t) { return ParseLength(t); }),
-        Fill(light.radius, options.radius, [](const auto& t) { return ParseLength(t); }),
-        Fill(inner, options.inner, [](const auto& t) { return ParseAngle(t); }),
-        Fill(outer, options.outer, [](const auto& t) { return ParseAngle(t); }),
-        Fill(light.beam, options.beam, [](const auto& t) { return ParseAngle(t); }),
-        Fill(light.field, options.field, [](const auto& t) { return ParseAngle(t); }),
-        FillPlain(light.flux, options.lumens, "lm"),
-        FillPlain(light.electrical, options.watts, "W")}) {
+       {Fill(light.diameter, "--diameter", options.diameter,
+             [](const auto& t) { return ParseLength(t); }),
+        Fill(light.length, "--length", options.length,
+             [](const auto& t) { return ParseLength(t); }),
+        Fill(light.radius, "--radius", options.radius,
+             [](const auto& t) { return ParseLength(t); }),
+        Fill(
+            inner, "--inner", options.inner, [](const auto& t) { return ParseAngle(t); },
+            Least::kFromZero),
+        Fill(outer, "--outer", options.outer, [](const auto& t) { return ParseAngle(t); }),
+        Fill(light.beam, "--beam", options.beam, [](const auto& t) { return ParseAngle(t); }),
+        Fill(light.field, "--field", options.field, [](const auto& t) { return ParseAngle(t); }),
+        FillPlain(light.flux, "--lumens", options.lumens, "lm"),
+        FillPlain(light.electrical, "--watts", options.watts, "W")}) {
     if (!filled) return tl::unexpected(filled.error());
   }
   if (auto shaped = CheckAngles(inner, outer, light); !shaped) return Propagate(std::move(shaped));
@@ -126,7 +138,7 @@ constexpr const char* kQuickMeter = "meter";
 Result<void> AddReadings(Session& session, const QuickOptions& options) {
   std::optional<Kelvin> cct;
   std::optional<double> duv;
-  if (auto filled = Fill(cct, options.cct, ParseLampTemperature); !filled) {
+  if (auto filled = Fill(cct, "--cct", options.cct, ParseLampTemperature); !filled) {
     return filled;
   }
   if (!options.duv.empty()) {

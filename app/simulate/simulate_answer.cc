@@ -102,6 +102,16 @@ std::string PointTable(const Simulated& s) {
   return TextTable(header, rows);
 }
 
+// "+z": the side whose light the map is of.
+std::string FacingText(const MapPlane& plane) {
+  std::string text;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double part = plane.grid.normal[static_cast<int>(i)];
+    if (part != 0.0) text = std::string(part > 0.0 ? "+" : "-") + "xyz"[i];
+  }
+  return text;
+}
+
 std::string PlaneText(const Simulated& s) {
   const MapPlane& plane = *s.plane;
   const MapSummary summary = Summarize(s.map, plane, s.border_m);
@@ -109,7 +119,7 @@ std::string PlaneText(const Simulated& s) {
   std::string out = plane.name + ", " + MetresText(std::abs(plane.right - plane.left)) + " x " +
                     MetresText(plane.top - plane.bottom) + " m, " +
                     std::to_string(plane.grid.width) + " x " + std::to_string(plane.grid.height) +
-                    " points\n";
+                    " points, facing " + FacingText(plane) + "\n";
   std::vector<std::vector<std::string>> rows = {
       {"least", text(summary.least_lx), "lx"},
       {"mean", text(summary.mean_lx), "lx"},
