@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "calibration_options.h"
+#include "check_cause.h"
 #include "commands.h"
 #include "input_files.h"
 #include "lamp_state.h"
@@ -226,7 +227,7 @@ std::string PlaceOf(const ComparedReading& row) {
 }
 
 // What the preset lacks, where that is more than it may.
-std::optional<Error> Judged(const CheckOptions& options, const LightFile& lights,
+std::optional<Error> Judged(const CheckOptions& options, const CalibratedSession& calibrated,
                             const std::vector<ComparedReading>& rows,
                             const std::vector<std::string>& missing, double rms, double max_error) {
   if (!missing.empty()) {
@@ -242,8 +243,8 @@ std::optional<Error> Judged(const CheckOptions& options, const LightFile& lights
                    PercentText(max_error) + "; most at a reading of " + worst->light + ": " +
                    RoundedText(worst->predicted_lx, 4) + " lx instead of " +
                    RoundedText(worst->measured_lx, 4) + " lx. " + PerhapsACone(*worst) +
-                   "Export it again, or undo what was edited in it; --max-error allows more" +
-                   PerhapsOfAState(options, lights)};
+                   CauseOfStraying(options.preset, calibrated, rows, max_error) +
+                   "; --max-error allows more" + PerhapsOfAState(options, calibrated.lights)};
 }
 
 Result<void> CheckPreset(const CheckOptions& options, Console& console) {
@@ -256,10 +257,7 @@ Result<void> CheckPreset(const CheckOptions& options, Console& console) {
   auto calibrated = CalibrateAloud(options.session, {}, console);
   if (!calibrated) return tl::unexpected(calibrated.error());
   if (auto there = ToStates(options, *calibrated, console); !there) return there;
-  const auto rows = CompareWithReadings(calibrated->session, calibrated->lights, *lights,
-                                        [&](const FittedLight& lamp, const ResidualRow& row) {
-                                          return WallPartOf(calibrated->session, lamp, row);
-                                        });
+  const auto rows = ComparedWith(*calibrated, *lights);
   const auto missing = LampsMissing(calibrated->session, calibrated->lights, *lights);
   const auto rms = RmsOf(rows);
   if (!rms) {
@@ -303,7 +301,7 @@ Result<void> CheckPreset(const CheckOptions& options, Console& console) {
                    {"rms_relative", *rms},
                    {"max_error", *max_error},
                    {"missing", Node::UnlessEmpty(Node(missing))}};
-  if (const auto fault = Judged(options, calibrated->lights, rows, missing, *rms, *max_error)) {
+  if (const auto fault = Judged(options, *calibrated, rows, missing, *rms, *max_error)) {
     return EndWithError(console, std::move(document), *fault);
   }
   console.PrintDocument(std::move(document));

@@ -18,6 +18,7 @@ namespace {
 Node VerdictNode(const FileVerdict& verdict) {
   return {{"file", verdict.path},
           {"ok", !verdict.error},
+          {"checked", verdict.checked ? Node() : Node(false)},
           {"format", Node::UnlessEmpty(verdict.format)},
           {"version", Node::UnlessEmpty(verdict.version)},
           {"holds", Node::UnlessEmpty(verdict.holds)},
@@ -25,7 +26,7 @@ Node VerdictNode(const FileVerdict& verdict) {
 }
 
 std::string Verdict(const FileVerdict& verdict) {
-  if (!verdict.error) return "ok";
+  if (!verdict.error) return verdict.checked ? "ok" : "not checked";
   return verdict.error->kind == ErrorKind::kRefused ? "refused" : "unreadable";
 }
 
@@ -94,6 +95,12 @@ Result<void> RunValidate(const std::vector<std::string>& paths, Console& console
       console.Warn(warning);
     }
   }
+  if (const auto unread = std::ranges::count(verdicts, false, &FileVerdict::checked); unread > 0) {
+    console.Warn({"not_checked", "validate",
+                  std::to_string(unread) + " of " + std::to_string(verdicts.size()) +
+                      " files are lightcal's own for engines and people: it writes them and has no "
+                      "reader for them, so that what they hold was not looked at"});
+  }
   const Node document = {{"files", Node::List(verdicts, VerdictNode)}};
   console.Print(Table(verdicts) + Faults(verdicts));
 
@@ -128,7 +135,8 @@ Run BuildValidate(CLI::App& parser) {
           "Sessions (or a folder of them), readings.jsonl, meters.toml; light.json, presets, "
           "camera, profile, capture and run files, tapes; " +
               ReadableEndings(" ") +
-              " as export writes them; IES, EULUMDAT, camera sensitivities; "
+              " as export writes them (what else it writes is listed as not checked); IES, "
+              "EULUMDAT, camera sensitivities; "
               "spectra and readings that import reads")
       ->required();
   return [paths](Console& console) { return RunValidate(*paths, console); };

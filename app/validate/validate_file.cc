@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -26,6 +27,7 @@
 #include "lightcal_devices/transport/tape_codec.h"
 #include "output_files.h"
 #include "preset_input.h"
+#include "provenance_mark.h"
 #include "validate/validate_session.h"
 
 namespace lightcal::app {
@@ -234,14 +236,60 @@ void ValidateImport(FileVerdict& verdict) {
                                 imported->spectra.size() == 1 ? "spectrum" : "spectrum column");
 }
 
+// What a file of ours holds that is made to hold no lamp; "" = it should have one.
+std::string HeldInsteadOfLights(const std::string& text) {
+  const std::string format = OwnFormatOf(text);
+  if (format == "usd" && text.find("\nover \"") != std::string::npos) {
+    return "opinions on lights of a stage";
+  }
+  const bool sky = text.find("\nbackground_mode = 2\n") != std::string::npos;
+  return format == "godot" && sky ? "a panorama, no lamp" : "";
+}
+
 void ValidateEngineFile(const std::string& text, FileVerdict& verdict) {
   verdict.format = "engine file";
-  const auto lights = LightsOfPreset(verdict.path, text, FilesBeside(verdict.path));
-  if (lights) {
-    verdict.holds = Counted(lights->size(), "light");
-  } else {
+  const auto lights = LightsIfAny(verdict.path, text, FilesBeside(verdict.path));
+  if (!lights) {
     verdict.error = lights.error();
+    return;
   }
+  verdict.holds = lights->empty() ? HeldInsteadOfLights(text) : Counted(lights->size(), "light");
+  if (verdict.holds.empty()) {
+    verdict.error = Error{ErrorKind::kRefused, "bad_preset", verdict.path, "holds no light"};
+  }
+}
+
+// A panorama's picture beside the preset that names it: <stem>-<light>.exr of a <stem>.* of ours.
+bool IsPictureOfPreset(const fs::path& path) {
+  constexpr std::string_view kPictures[] = {".exr", ".hdr", ".ktx", ".pfm"};
+  const std::string name = path.filename().string();
+  if (std::ranges::find(kPictures, path.extension().string()) == std::end(kPictures)) return false;
+  std::error_code error;
+  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+  for (const auto& beside : fs::directory_iterator(folder, error)) {
+    const std::string other = beside.path().filename().string();
+    const std::string stem = other.substr(0, other.find('.'));
+    const bool named = TargetOfFile(other) != nullptr || beside.path().extension() == ".pbrt";
+    if (named && !stem.empty() && name.starts_with(stem + "-") &&
+        !OwnFormatOfFile(beside.path().string()).empty()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// What lightcal writes for engines and people and does not read back. Absent: it may be anything.
+std::optional<std::string> WrittenForOthers(const std::string& path, const std::string& text) {
+  if (IsPictureOfPreset(path)) return "picture";
+  const std::string format = OwnFormatOf(text);
+  if (format == "script" || format == "json" || format == "lightcal.unity" || format == "mitsuba" ||
+      format == "unreal") {
+    return "engine file";
+  }
+  if (format == "html") return "page";
+  return format == "hdr" || format == "exr" || format == "png" || format == "svg" || format == "pdf"
+             ? std::optional<std::string>("picture")
+             : std::nullopt;
 }
 
 void ValidateToml(const std::string& text, FileVerdict& verdict) {
@@ -265,10 +313,15 @@ void ValidateText(const std::string& text, FileVerdict& verdict) {
     ValidateJournal(text, verdict);
   } else if (IsEngineFile(name)) {
     ValidateEngineFile(text, verdict);
-  } else if (first != std::string::npos && text[first] == '{') {
+  } else if (first != std::string::npos && text[first] == '{' &&
+             !WrittenForOthers(verdict.path, text)) {
     ValidateJson(text, verdict);
   } else if (named(".ies") || named(".ldt") || IsIes(text)) {
     ValidatePhotometric(verdict);
+  } else if (auto format = WrittenForOthers(verdict.path, text)) {
+    verdict.format = *std::move(format);
+    verdict.holds = "written by lightcal, no reader here";
+    verdict.checked = false;
   } else {
     ValidateImport(verdict);
   }

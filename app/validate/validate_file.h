@@ -16,6 +16,7 @@ struct FileVerdict {
   std::string holds;           // "3 lights", where it was read
   Warnings warnings;           // what the reader put right or passed over
   std::optional<Error> error;  // what is wrong, where, and what to do
+  bool checked = true;         // false: lightcal wrote it and has no reader for it
 };
 
 // Formats are told apart by content, by name only where content cannot tell (.toml, .jsonl, .ldt

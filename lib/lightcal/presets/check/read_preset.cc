@@ -36,19 +36,25 @@ std::string WithoutOrigin(std::string_view message) {
 
 }  // namespace
 
-Result<std::vector<EngineLight>> LightsOfPreset(const std::string& path, const std::string& text,
-                                                const FileBeside& beside) {
+Result<std::vector<EngineLight>> LightsIfAny(const std::string& path, const std::string& text,
+                                             const FileBeside& beside) {
   const PresetTarget* target = TargetOfFile(path);
   if (target == nullptr) return WrongUsage(path, "is none of " + ReadableEndings());
   try {
     auto lights = target->reader(text, OwnDirectory(beside));
-    if (lights.empty()) return Refused("bad_preset", path, "holds no light");
     RequireFinite(lights);
     return lights;
   } catch (const std::exception& error) {
     return Refused("bad_preset", path,
                    "is not as lightcal writes it: " + WithoutOrigin(error.what()));
   }
+}
+
+Result<std::vector<EngineLight>> LightsOfPreset(const std::string& path, const std::string& text,
+                                                const FileBeside& beside) {
+  auto lights = LightsIfAny(path, text, beside);
+  if (lights && lights->empty()) return Refused("bad_preset", path, "holds no light");
+  return lights;
 }
 
 }  // namespace lightcal

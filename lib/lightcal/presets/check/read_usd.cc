@@ -18,7 +18,8 @@ namespace {
 
 struct Prim {
   std::string type, name;
-  std::map<std::string, std::string> values;  // "inputs:radius" -> "0.5"; metadata, too
+  std::string space{};                          // of its colours: "acescg"; "" = Rec. 709
+  std::map<std::string, std::string> values{};  // "inputs:radius" -> "0.5"; metadata, too
 
   [[nodiscard]] const std::string& Text(const std::string& key) const {
     static const std::string kNothing;
@@ -78,7 +79,7 @@ class Variants {
 };
 
 // `def Type "name"` begins a prim; what follows is its own until the next one does. `over "name"`
-// goes on with one that was there.
+// goes on with one that was there; a layer of nothing else is about prims of a person's stage.
 std::vector<Prim> PrimsOf(const std::string& text) {
   if (!text.starts_with("#usda")) throw std::runtime_error("it does not begin with #usda");
   RequireClosed(text, kUsdaSyntax);
@@ -101,9 +102,13 @@ std::vector<Prim> PrimsOf(const std::string& text) {
       continue;
     }
     if (line.starts_with("over ")) {
-      const auto it = std::ranges::find(prims, BetweenQuotes(line), &Prim::name);
-      if (it == prims.end())
-        throw std::runtime_error(std::string(line) + ": there is no such prim");
+      auto it = std::ranges::find(prims, BetweenQuotes(line), &Prim::name);
+      if (it == prims.end()) {
+        const bool of_a_stage =
+            std::ranges::all_of(prims, [](const Prim& prim) { return prim.type.empty(); });
+        if (!of_a_stage) throw std::runtime_error(std::string(line) + ": there is no such prim");
+        it = prims.insert(it, Prim{.type = {}, .name = std::string(BetweenQuotes(line))});
+      }
       current = static_cast<std::size_t>(it - prims.begin());
       continue;
     }
@@ -129,7 +134,7 @@ double LuminanceOf(const Prim& prim) {
   if (const std::string& color = prim.Text("inputs:color"); !color.empty()) {
     const auto c = NumbersIn(color);
     if (c.size() != 3) throw std::runtime_error(prim.name + ": inputs:color has not three numbers");
-    value *= Rec709Luminance(c);
+    value *= LuminanceOfSpace(prim.space, {c[0], c[1], c[2]});
   }
   return value;
 }
@@ -214,13 +219,18 @@ EngineLight FromPrim(const Prim& prim, const std::string& renderer, const FileTe
 std::vector<EngineLight> ReadUsd(const std::string& text, const FileText& beside) {
   constexpr std::string_view kTypes[] = {"SphereLight", "DistantLight",  "DomeLight",
                                          "RectLight",   "CylinderLight", "DiskLight"};
-  const std::vector<Prim> prims = PrimsOf(text);
+  std::vector<Prim> prims = PrimsOf(text);
+  if (std::ranges::all_of(prims, [](const Prim& prim) { return prim.type.empty(); })) {
+    if (prims.size() > 1) return {};
+  }
+  const std::string space = Unquoted(prims.front().Text("colorSpace"));
   if (prims.front().Number("metersPerUnit", 0.01) != 1.0 ||
       prims.front().Text("upAxis") != "\"Z\"") {
     throw std::runtime_error("it is not in metres with Z up, as lightcal writes");
   }
   std::vector<EngineLight> lights;
-  for (const Prim& prim : prims) {
+  for (Prim& prim : prims) {
+    prim.space = space;
     if (std::ranges::find(kTypes, prim.type) != std::end(kTypes)) {
       lights.push_back(FromPrim(prim, prims.front().Text("renderer"), beside));
     }
