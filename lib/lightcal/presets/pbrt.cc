@@ -68,10 +68,11 @@ std::string Value(const DerivedLight& derived, const char* name) {
   return Parameter("float", name, derived.Find(name)->values);
 }
 
-// Columns first, as the file has it.
+// Columns first, as the file has it; into whatever frame a scene includes the file in (Transform
+// would replace it).   Source: pbrt-v4 file format, transformations.
 std::string TransformText(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& origin) {
-  return "  Transform [ " + Numbers(x, " ") + " 0 " + Numbers(y, " ") + " 0 " + Numbers(z, " ") +
-         " 0 " + Numbers(origin, " ") + " 1 ]\n";
+  return "  ConcatTransform [ " + Numbers(x, " ") + " 0 " + Numbers(y, " ") + " 0 " +
+         Numbers(z, " ") + " 0 " + Numbers(origin, " ") + " 1 ]\n";
 }
 
 // A quadrilateral whose (p10 - p00) x (p01 - p00) is the way it faces.

@@ -172,7 +172,15 @@ class EveryKind(unittest.TestCase):
             self.assertIn(said[0].split(": ", 1)[1], export.text(name))
 
     def test_pbrt(self):
-        self.check("pbrt")
+        export = self.check("pbrt")
+        # Included in a scene whose Y is up: (x, y, z) stands at (x, z, -y) there.
+        lights, _ = pbrt(export)
+        turned, _ = pbrt(export, lambda t: f"AttributeBegin\nRotate -90 1 0 0\n{t}AttributeEnd\n")
+        for name, light in lights.items():
+            for was, now in ((light.at, turned[name].at), (light.aim, turned[name].aim)):
+                if was is not None:
+                    for a, b in zip((was[0], was[2], -was[1]), now):
+                        self.assertAlmostEqual(a, b, 9, name)
 
     def test_unity(self):
         export = self.check("unity")

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A pbrt-v4 scene by its file format's page: directives, quoted types, bracketed values."""
+import math
 import re
+
+import numpy as np
 
 from seen import GateError, Rig, Seen, cross, luminance, unit
 
@@ -12,7 +15,7 @@ def directives(text):
     found, comment = [], ""
     names = {"ColorSpace", "Scale", "LookAt", "Camera", "Film", "Sampler", "Integrator",
              "WorldBegin", "LightSource", "AttributeBegin", "AttributeEnd", "AreaLightSource",
-             "Transform", "Shape", "Material"}
+             "Transform", "ConcatTransform", "Rotate", "Shape", "Material"}
     for line in text.split("\n"):
         if line.startswith("#"):
             comment = line[1:].split(" substituted: ")[0].strip().strip('"')
@@ -44,9 +47,24 @@ def directives(text):
     return found
 
 
+def rotation(degrees, axis):
+    """Rodrigues."""
+    x, y, z = unit(axis)
+    k = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    turn = math.radians(degrees)
+    out = np.eye(4)
+    out[:3, :3] += math.sin(turn) * k + (1 - math.cos(turn)) * k @ k
+    return out
+
+
 def read(text):
     lights, cards, k = {}, [], None
     area = material = None
+    ctm, kept = np.eye(4), []
+
+    def point(p):
+        return list(ctm[:3, :3] @ p + ctm[:3, 3])
+
     for comment, word, plain, p in directives(text):
         number = {key: [float(v) for v in values] for key, values in p.items()
                   if all(re.fullmatch(r"[-+.e\d]+", v) for v in values)}
@@ -54,17 +72,26 @@ def read(text):
             if p["sensor"] != ["cie1931"]:
                 raise GateError("pbrt: sensor")
             k = number["iso"][0] / 100.0
+        if word == "WorldBegin":
+            ctm = np.eye(4)
         if word == "AttributeBegin":
-            area = material = transform = None
+            kept.append(ctm)
+            area = material = None
+        if word == "AttributeEnd":
+            ctm = kept.pop()
         if word == "Material":
             material = number["reflectance"][0]
         if word == "Transform":
-            transform = [float(v) for v in plain]
+            ctm = np.array(plain, float).reshape(4, 4).T
+        if word == "ConcatTransform":
+            ctm = ctm @ np.array(plain, float).reshape(4, 4).T
+        if word == "Rotate":
+            ctm = ctm @ rotation(float(plain[0]), [float(v) for v in plain[1:]])
         if word == "AreaLightSource":
             area = number
         if word == "Shape" and plain[0] == "bilinearmesh":
             q = number["P"]
-            p00, p10, p01, p11 = (q[3 * i:3 * i + 3] for i in range(4))
+            p00, p10, p01, p11 = (point(q[3 * i:3 * i + 3]) for i in range(4))
             u = [b - a for a, b in zip(p00, p10)]
             v = [b - a for a, b in zip(p00, p01)]
             centre = [(a + b) / 2 for a, b in zip(p00, p11)]
@@ -79,8 +106,7 @@ def read(text):
             if plain[0] == "bilinearmesh":
                 seen.at, seen.aim, seen.size = centre, normal, size
             else:
-                seen.at = transform[12:15]
-                x, y, z = transform[0:3], transform[4:7], transform[8:11]
+                x, y, z, seen.at = (list(ctm[:3, i]) for i in range(4))
                 handed = sum(a * b for a, b in zip(cross(x, y), z))
                 if abs(handed - 1) > 1e-9:
                     raise GateError("pbrt: a transform that turns shapes inside out")
@@ -98,9 +124,9 @@ def read(text):
             seen.nits = number["scale"][0] * y
         else:
             seen.candela = number["scale"][0] * y
-            seen.at = number["from"]
+            seen.at = point(number["from"])
         if plain[0] in ("spot", "distant"):
-            seen.aim = unit([b - a for a, b in zip(number["from"], number["to"])])
+            seen.aim = unit([b - a for a, b in zip(point(number["from"]), point(number["to"]))])
         if plain[0] == "spot":
             seen.outer = number["coneangle"][0]
             seen.inner = seen.outer - number["conedeltaangle"][0]
