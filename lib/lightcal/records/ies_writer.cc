@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // IES LM-63-2002, as photometric_codec.h says; its grammar is read in ies_codec.cc.
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/photometric_codec.h"
@@ -55,11 +58,50 @@ std::string OpeningText(const LuminousOpening& opening) {
          " " + size(opening.height, sphere);
 }
 
+std::vector<double> PlaneAt(const IntensityTable& table, double c_deg) {
+  std::vector<double> candela;
+  for (const double gamma : table.grid().vertical_deg) {
+    candela.push_back(table.At(RadiansFromDegrees(c_deg), RadiansFromDegrees(gamma)).value());
+  }
+  return candela;
+}
+
+// Its planes as LM-63-2002 has them: type C from 0 to 0, 90, 180 or 360. A lamp that is mirrored in
+// C90-C270 is written whole (90 to 270 is of 1995 only, and Cycles and three.js take its first
+// plane for C0), and a turn is closed. Same interpolant: from plane to plane it is linear.
+IntensityGrid WholePlanes(const IntensityTable& table) {
+  constexpr double kTurn = 360.0, kSame = 1e-6;
+  IntensityGrid grid = table.grid();
+  const bool mirrored = table.symmetry() == TableSymmetry::kBilateral90;
+  const bool open =
+      table.symmetry() == TableSymmetry::kNone && grid.horizontal_deg.back() < kTurn - kSame;
+  if (grid.type != GoniometerType::kC || !(mirrored || open)) return grid;
+  const std::size_t nv = grid.vertical_deg.size();
+  std::map<double, std::vector<double>> planes;
+  for (std::size_t i = 0; i < grid.horizontal_deg.size(); ++i) {
+    const double c = grid.horizontal_deg[i];
+    const auto from = grid.candela.begin() + static_cast<std::ptrdiff_t>(i * nv);
+    const std::vector<double> candela(from, from + static_cast<std::ptrdiff_t>(nv));
+    const bool inside = i > 0 && i + 1 < grid.horizontal_deg.size();
+    if (mirrored && inside) planes[std::fmod(1.5 * kTurn - c, kTurn)] = candela;
+    planes[c] = candela;
+  }
+  if (!planes.contains(0.0)) planes[0.0] = PlaneAt(table, 0.0);
+  planes[kTurn] = planes[0.0];
+  grid.horizontal_deg.clear();
+  grid.candela.clear();
+  for (const auto& [c, candela] : planes) {
+    grid.horizontal_deg.push_back(c);
+    grid.candela.insert(grid.candela.end(), candela.begin(), candela.end());
+  }
+  return grid;
+}
+
 }  // namespace
 
 std::string IesText(const PhotometricFile& file) {
   const PhotometricHeader& header = file.header;
-  const IntensityGrid& grid = file.table.grid();
+  const IntensityGrid grid = WholePlanes(file.table);
   int count = 0;
   for (const LampSet& set : header.lamps) count += set.count;
   if (!header.lamp_flux || count < 1) count = 1;

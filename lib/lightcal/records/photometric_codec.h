@@ -43,7 +43,8 @@ using TiltText = std::function<Result<std::string>(const std::string& name)>;
                                                   const TiltText& tilt = {});
 // LM-63-2002 as the strictest readers want it: CRLF, absolute candela with all factors 1, whole
 // numbers without decimals, ASCII, the flux of the table where no lamp flux is known (never -1).
-// Eight significant digits. Keeps the table's type and planes.
+// Eight significant digits. Keeps the table's type and planes, but a table of C90 to C270 (1995
+// only) is written with its mirror image from 0 to 360, and a full turn with its last plane.
 [[nodiscard]] std::string IesText(const PhotometricFile& file);
 
 // I = value x lamp lumens / 1000 x conversion factor (CFLI); a negative lamp count marks absolute
