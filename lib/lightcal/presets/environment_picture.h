@@ -48,6 +48,17 @@ using Harmonics = std::array<Vec3, 9>;
 // What a plane of unit normal n (in the harmonics' axes) gets of them.
 [[nodiscard]] Vec3 IrradianceOn(const Harmonics& radiance, const Vec3& normal);
 
+// What nine harmonics make of a picture, on the plane where they stray most from it (of 206 normals
+// all round, those the picture lights at all): illuminances [lx] and the normal, in our axes.
+struct HarmonicsError {
+  Vec3 normal{0.0, 0.0, 1.0};
+  double own_lx = 0.0, harmonic_lx = 0.0;
+
+  // Over what the picture gives there.
+  [[nodiscard]] double relative() const { return own_lx > 0.0 ? harmonic_lx / own_lx - 1.0 : 0.0; }
+};
+[[nodiscard]] HarmonicsError WorstOfHarmonics(const EnvironmentPicture& picture);
+
 // The unit vector through the middle of a pixel of a lat-long picture, in our axes.
 [[nodiscard]] Vec3 PixelDirection(int x, int y, int width, int height);
 // Of a pixel in row y of a lat-long picture [sr].

@@ -15,6 +15,7 @@
 #include "lightcal/presets/into_scene.h"
 #include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/preset_table.h"
+#include "lightcal/presets/preset_text.h"
 #include "lightcal/presets/rig.h"
 
 namespace lightcal {
@@ -117,6 +118,16 @@ void SayOfWhich(const std::vector<Substituted>& said, bool only_worst, Warnings&
   }
 }
 
+// Of engines that light matt surfaces by nine harmonics: how far those stray from each panorama.
+Warnings HarmonicsErrors(const LightFile& lights, const PresetOptions& options) {
+  Warnings said;
+  for (std::size_t i = 0; i < std::min(lights.lights.size(), options.environments.size()); ++i) {
+    if (lights.lights[i].kind != LightKind::kDome || !options.environments[i]) continue;
+    preset_text::WarnOfHarmonics(lights.lights[i].name, *options.environments[i], said);
+  }
+  return said;
+}
+
 // Two targets may bring the same photometric file, with the same contents.
 void KeepFirstOfEachName(std::vector<PresetFile>& files) {
   std::set<std::string> names;
@@ -165,6 +176,7 @@ Result<ExportedPresets> ExportTargets(const LightFile& all_lights,
   auto rigs = RigsOf(lights, options);
   if (!rigs) return Propagate(std::move(rigs));
   std::vector<Substituted> said;
+  std::optional<Warnings> harmonics;
   CountedProgress progress(options.progress, static_cast<int>(chosen->size() * rigs->size()));
   for (const PresetTarget& target : *chosen) {
     for (const std::optional<RigPlace>& rig : *rigs) {
@@ -175,6 +187,10 @@ Result<ExportedPresets> ExportTargets(const LightFile& all_lights,
       if (!preset) return Propagate(std::move(preset));
       // What is no engine's (json) holds the lamp itself.
       if (target.place_in_report > 0) NoteSubstitutes(target.name, preset->warnings, said);
+      if (target.panorama == PanoramaLaw::kNineHarmonics) {
+        if (!harmonics) harmonics = HarmonicsErrors(lights, options);
+        std::ranges::copy(*harmonics, std::back_inserter(preset->warnings));
+      }
       progress.Done();
       if (targets.empty()) DropUnasked(all.warnings, preset->warnings);
       AddOnce(preset->warnings, all.warnings);

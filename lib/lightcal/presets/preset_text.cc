@@ -137,6 +137,28 @@ void WarnOfHalfFloats(const PresetLight& light, std::string_view engine, Warning
            "that they are lights"});
 }
 
+void WarnOfHarmonics(const std::string& light, const EnvironmentPicture& picture,
+                     Warnings& warnings) {
+  constexpr double kSaid = 0.01;
+  constexpr int kDigits = 3;
+  const HarmonicsError worst = WorstOfHarmonics(picture);
+  const double off = worst.relative();
+  if (std::abs(off) < kSaid) return;
+  std::string facing;
+  for (const double v : worst.normal) {
+    facing += (facing.empty() ? "" : ", ") + RoundedText(std::abs(v) < 5e-3 ? 0.0 : v, 2);
+  }
+  warnings.push_back({"panorama_harmonics", light,
+                      "matt surfaces get nine harmonics of the picture, at worst " +
+                          RoundedText(100.0 * std::abs(off), 2) + " % too " +
+                          (off < 0.0 ? "little" : "much") + ": facing (" + facing + "), Z up, " +
+                          RoundedText(worst.harmonic_lx, kDigits) + " of its " +
+                          RoundedText(worst.own_lx, kDigits) +
+                          " lx. A lamp or a sun left in the picture does that: take it out as a "
+                          "light",
+                      std::abs(off)});
+}
+
 void PutSize(const PresetLight& light, DerivedLight& derived) {
   if (light.form == LightForm::kRect) {
     derived.Put("width", light.width_m);

@@ -41,14 +41,19 @@ namespace lightcal::preset_text {
 [[nodiscard]] PresetOptions InRec709(PresetOptions options, std::string_view engine,
                                      Warnings& warnings);
 
-// <stem>-<light>.hdr (or .exr, .pfm) of a dome's picture as an engine of that colour gets it, with a
-// warning of what had to be cut (picture_cut).
+// <stem>-<light>.hdr (or .exr, .pfm) of a dome's picture as an engine of that colour gets it, with
+// a warning of what had to be cut (picture_cut).
 enum class PictureEncoding : std::uint8_t { kRadiance, kOpenExr, kEqualAreaSquare };
 [[nodiscard]] PresetFile PictureFileOf(const PresetLight& light, const std::string& stem,
                                        const PresetOptions& options, PictureEncoding encoding,
                                        Warnings& warnings);
 // Where engines take half floats: what is brighter than they hold is said (picture_cut).
 void WarnOfHalfFloats(const PresetLight& light, std::string_view engine, Warnings& warnings);
+
+// Where engines light matt surfaces by nine harmonics of a picture (PanoramaLaw): by how much those
+// stray from it on the plane where they do most, above 1 % (panorama_harmonics).
+void WarnOfHarmonics(const std::string& light, const EnvironmentPicture& picture,
+                     Warnings& warnings);
 
 // width and height of a rectangle, else the radius, and the length of a tube, for audit.
 void PutSize(const PresetLight& light, DerivedLight& derived);
