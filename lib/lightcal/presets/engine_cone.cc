@@ -245,10 +245,20 @@ EngineCone JudgedCone(const ConeTerms& terms, const std::vector<Sample>& samples
 BeamProfile ProfileOf(const SpotCone& cone) {
   BeamProfile beam;
   beam.squared = cone;
+  constexpr int kEdgeSteps = 100;
   const double end = std::min(std::numbers::pi, cone.outer.value() + kBeyond);
-  for (int i = 0; i <= 2 * kBeamSteps; ++i) {
-    const double angle = end * i / (2 * kBeamSteps);
-    beam.angle_rad.push_back(angle);
+  const double step = end / (2 * kBeamSteps);
+  for (int i = 0; i <= 2 * kBeamSteps; ++i) beam.angle_rad.push_back(step * i);
+  // An edge falls within few of these.
+  const double inner = std::min(cone.inner, cone.outer).value();
+  const double edge = cone.outer.value() - inner;
+  if (edge < kEdgeSteps * step) {
+    for (int i = 0; i <= kEdgeSteps; ++i) beam.angle_rad.push_back(inner + edge * i / kEdgeSteps);
+    std::ranges::sort(beam.angle_rad);
+    const auto same = std::ranges::unique(beam.angle_rad);
+    beam.angle_rad.erase(same.begin(), same.end());
+  }
+  for (const double angle : beam.angle_rad) {
     beam.mean.push_back(SpotAttenuation(Radians(angle), cone, SpotFalloff::kSquaredLinear));
   }
   beam.least = beam.most = beam.mean;
@@ -365,14 +375,26 @@ EngineCone JudgeCone(EngineConeLaw law, const SpotCone& cone, const BeamProfile&
   return JudgedCone(TermsOf(law, cone.inner.value(), cone.outer.value(), 1.0), SamplesOf(beam));
 }
 
+namespace {
+
+constexpr double kNothing = 1e-3;
+
+std::string OffAxisText(double worst, Radians at, std::string_view of) {
+  return "off the axis within " + RoundedText(100.0 * worst, 2) + " % of the " + std::string(of) +
+         " intensity (at " + RoundedText(DegreesFromRadians(at), 2) + " degrees)";
+}
+
+}  // namespace
+
+std::string ErrorOffAxis(double worst, Radians at, std::string_view of) {
+  return worst < kNothing ? std::string() : OffAxisText(worst, at, of);
+}
+
 std::string ConeErrorText(const EngineCone& cone) {
-  constexpr double kNothing = 1e-3;
   const double flux = cone.flux - 1.0;
   if (cone.worst < kNothing && std::abs(flux) < kNothing) return {};
-  return "off the axis within " + RoundedText(100.0 * cone.worst, 2) +
-         " % of the axial intensity (at " + RoundedText(DegreesFromRadians(cone.worst_at), 2) +
-         " degrees), flux " + RoundedText(100.0 * std::abs(flux), 2) +
-         (flux < 0.0 ? " % low" : " % high");
+  return OffAxisText(cone.worst, cone.worst_at, "axial") + ", flux " +
+         RoundedText(100.0 * std::abs(flux), 2) + (flux < 0.0 ? " % low" : " % high");
 }
 
 }  // namespace lightcal

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lightcal/core/units.h"
@@ -70,6 +71,8 @@ inline constexpr double kConeFluxError = 0.022;
 [[nodiscard]] EngineCone JudgeCone(EngineConeLaw law, const SpotCone& cone,
                                    const BeamProfile& beam);
 
+// "off the axis within 6.6 % of the axial intensity (at 22 degrees)"; "" where that is below 0.1 %.
+[[nodiscard]] std::string ErrorOffAxis(double worst, Radians at, std::string_view of = "axial");
 // "off the axis within 6.6 % of the axial intensity (at 22 degrees), flux 1.6 % low"; "" where both
 // are below 0.1 %.
 [[nodiscard]] std::string ConeErrorText(const EngineCone& cone);

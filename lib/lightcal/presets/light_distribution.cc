@@ -119,7 +119,49 @@ Result<IntensityTable> MeasuredTable(const IntensityTable& table) {
   return IntensityTable::Make(std::move(grid), "light");
 }
 
+// The part of a turn each stored plane stands for: half the way to both neighbours, within what is
+// stored of a mirrored lamp, round the turn otherwise.
+std::vector<double> PlaneShares(const IntensityTable& table) {
+  constexpr double kTurn = 360.0, kSame = 1e-6;
+  const std::vector<double>& c = table.grid().horizontal_deg;
+  if (c.size() == 1) return {1.0};
+  std::vector<double> shares(c.size(), 0.0);
+  const bool open = table.symmetry() == TableSymmetry::kNone && c.back() < kTurn - kSame;
+  const double whole = open ? kTurn : c.back() - c.front();
+  for (std::size_t i = 0; i + 1 < c.size(); ++i) {
+    const double half = (c[i + 1] - c[i]) / (2.0 * whole);
+    shares[i] += half;
+    shares[i + 1] += half;
+  }
+  if (open) {
+    const double half = (kTurn - c.back()) / (2.0 * whole);
+    shares.front() += half;
+    shares.back() += half;
+  }
+  return shares;
+}
+
 }  // namespace
+
+Result<RoundTable> RoundAboutAim(const IntensityTable& table) {
+  const IntensityGrid& grid = table.grid();
+  const std::vector<double> shares = PlaneShares(table);
+  const std::size_t nv = grid.vertical_deg.size();
+  IntensityGrid round{GoniometerType::kC, {0.0}, grid.vertical_deg, std::vector<double>(nv, 0.0)};
+  for (std::size_t i = 0; i < grid.candela.size(); ++i) {
+    round.candela[i % nv] += shares[i / nv] * grid.candela[i];
+  }
+  double worst = 0.0, at = 0.0;  // both are linear between nodes
+  for (std::size_t i = 0; i < grid.candela.size(); ++i) {
+    const double off = std::abs(round.candela[i % nv] - grid.candela[i]);
+    if (off <= worst) continue;
+    worst = off;
+    at = grid.vertical_deg[i % nv];
+  }
+  auto made = IntensityTable::Make(std::move(round), "light");
+  if (!made) return Propagate(std::move(made));
+  return RoundTable{*std::move(made), worst, RadiansFromDegrees(at)};
+}
 
 Result<std::optional<IntensityTable>> DistributionOf(const FittedLight& lamp) {
   const auto given = [](Result<IntensityTable>&& table) -> Result<std::optional<IntensityTable>> {

@@ -22,4 +22,13 @@ namespace lightcal {
 // Absent: lights at infinity, lights without an intensity.   Fails: as IntensityTable::Make.
 [[nodiscard]] Result<std::optional<IntensityTable>> DistributionOf(const FittedLight& lamp);
 
+// The same lamp for engines whose distributions are round about the aim: one plane, the mean of its
+// interpolant round C at each gamma, which keeps the flux. Type C.
+struct RoundTable {
+  IntensityTable table;
+  double worst_cd = 0.0;  // largest |mean - table| in any direction
+  Radians worst_at{0.0};  // its gamma
+};
+[[nodiscard]] Result<RoundTable> RoundAboutAim(const IntensityTable& table);
+
 }  // namespace lightcal

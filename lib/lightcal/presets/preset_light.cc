@@ -119,6 +119,37 @@ void RefitSpot(const FittedLight& lamp, EngineConeLaw law, const LearntEngine* e
       " as the engine's own cone, refitted: right on the axis, " + error;
 }
 
+// Where a picture of the beam strays less than the engine's own cone.
+void ProjectSpot(PresetLight& light) {
+  if (!light.beam || !light.beam->squared || light.cone.worst <= kConeGoodEnough) return;
+  const auto projected = ProjectionOf(*light.beam->squared);
+  if (!projected || projected->worst >= light.cone.worst) return;
+  light.projected = projected;
+  const std::string error = ErrorOffAxis(projected->worst, projected->worst_at);
+  light.strays = error.empty() ? 0.0 : projected->worst;
+  light.substitution =
+      error.empty() ? ""
+                    : "a spot of squared-linear falloff as a picture of it, projected: " + error;
+}
+
+// Of an engine whose distributions are round about the aim.
+Result<void> MakeRound(const FittedLight& lamp, PresetLight& light) {
+  light.beam = ProfileOf(*light.table);
+  const double axial = light.table->At(Radians(0.0), Radians(0.0)).value();
+  const bool lit = axial > 0.0;
+  const double against = lit ? axial : light.table->peak().intensity.value();
+  auto round = RoundAboutAim(*light.table);
+  if (!round) return Propagate(std::move(round));
+  light.table = std::move(round->table);
+  const double worst = round->worst_cd / against;
+  const std::string error = ErrorOffAxis(worst, round->worst_at, lit ? "axial" : "largest");
+  if (error.empty()) return {};
+  light.strays = worst;
+  light.substitution = std::string(DistributionWords(lamp)) +
+                       " as its mean round about the aim, flux kept: " + error;
+  return {};
+}
+
 void ChooseForm(const FittedLight& lamp, const EngineForms& forms, const PresetOptions& options,
                 PresetLight& light) {
   const SpotForm spots = options.spots;
@@ -134,6 +165,7 @@ void ChooseForm(const FittedLight& lamp, const EngineForms& forms, const PresetO
     light.substitution.clear();
     light.strays = 0.0;
   }
+  if (forms.projects_spots && spots != SpotForm::kCone) ProjectSpot(light);
 }
 
 // ---- how bright ----
@@ -181,7 +213,7 @@ void MeasureInfinite(const FittedLight& lamp, PresetLight& light) {
   light.nits = light.lux / (std::numbers::pi * sine * sine);
 }
 
-Result<void> Measure(const FittedLight& lamp, PresetLight& light) {
+Result<void> Measure(const FittedLight& lamp, const EngineForms& forms, PresetLight& light) {
   const PunctualLight& punctual = light.punctual;
   if (punctual.photometric_u95) {
     light.relative_u95 = *punctual.photometric_u95 / punctual.photometric;
@@ -194,6 +226,9 @@ Result<void> Measure(const FittedLight& lamp, PresetLight& light) {
     auto table = DistributionOf(lamp);
     if (!table) return Propagate(std::move(table));
     light.table = *std::move(table);
+    if (forms.round_tables) {
+      if (auto round = MakeRound(lamp, light); !round) return Propagate(std::move(round));
+    }
     light.candela = light.table->peak().intensity.value();
     light.lumens = light.table->Flux().value();
     return {};
@@ -300,7 +335,7 @@ Result<std::vector<PresetLight>> PresetLightsFrom(const LightFile& file, const E
     able.dome = forms.dome || (forms.pictured_dome && picture && options.into.empty());
     ChooseForm(lamp, able, options, light);
     if (light.form == LightForm::kDome) light.environment = picture;
-    if (auto measured = Measure(lamp, light); !measured) {
+    if (auto measured = Measure(lamp, forms, light); !measured) {
       return Propagate(std::move(measured));
     }
     if (!light.substitution.empty() && !IsSpotWithoutCone(lamp)) {

@@ -15,6 +15,7 @@
 #include "lightcal/light/lamp_axes.h"
 #include "lightcal/presets/engine_cone.h"
 #include "lightcal/presets/preset.h"
+#include "lightcal/presets/projected_spot.h"
 #include "lightcal/presets/punctual_light.h"
 
 namespace lightcal {
@@ -37,6 +38,8 @@ struct EngineForms {
   bool sphere = false, disk = false, rect = false, tube = false, table = false, dome = false;
   bool pictured_dome = false;  // a dome that has a picture; an even one is a light from above
   EngineConeLaw cone = EngineConeLaw::kSquared;
+  bool round_tables = false;    // of a table it shows the mean round the aim (RoundAboutAim)
+  bool projects_spots = false;  // SpotForm::kAuto may put a picture before a spot
   bool spots_by_table = false;  // its tables are absolute wherever it runs: SpotForm::kAuto may
 };
 
@@ -64,10 +67,11 @@ struct PresetLight {
   std::optional<double> relative_u95;  // of all of these
   double width_m = 0.0, height_m = 0.0, radius_m = 0.0, length_m = 0.0;
   std::optional<double> angular_diameter_deg;  // directional
-  std::optional<IntensityTable> table;         // form kTable; absolute candela
+  std::optional<IntensityTable> table;         // form kTable; absolute candela; as it is shown
   // Of a spot or a measured beam: what is to be shown, and the engine's own cone nearest to it.
   std::optional<BeamProfile> beam;
   EngineCone cone;
+  std::optional<ProjectedSpot> projected{};  // shown instead of that cone, of a squared beam
   std::shared_ptr<const EnvironmentPicture> environment{};  // form kDome; null = an even one
   // Of a renderer that turns pictures: what it shows of `environment`; null = that itself.
   std::shared_ptr<const EnvironmentPicture> shown{};

@@ -3,9 +3,11 @@
 // illuminance, L a luminance, Y the luminance of the max-normalised colour:
 //   point, spot, measured  I/Y [cd]   directional  E/Y [lx]   rect, disk, dome  L/Y [cd/m2]
 // three's spot falls smoothly (smoothstep in the cosine) from angle (1 - penumbra) to angle,
-// Babylon's as glTF: a spot holds a cone for each, and where three's strays too far its profile,
-// which three projects (SpotLight.map). A disk becomes the square of its area. Sources: three.js
-// 0.187, Babylon.js 9.34, rendered (tests/engines/render).
+// Babylon's as glTF: a spot holds a cone for each, and where three's strays too far three projects
+// the beam (SpotLight.map). A disk becomes the square of its area, a measured distribution its mean
+// round the aim: Babylon has no other, three shows its C0 plane all round or, in 0.187, turns it by
+// the shadow camera's up instead of C0. Sources: three.js 0.187, Babylon.js 9.34, rendered
+// (tests/engines/render).
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -24,8 +26,12 @@ namespace lightcal {
 namespace {
 
 using records::Node;
-constexpr EngineForms kThree{
-    .rect = true, .table = true, .dome = true, .cone = EngineConeLaw::kSmooth};
+constexpr EngineForms kThree{.rect = true,
+                             .table = true,
+                             .dome = true,
+                             .cone = EngineConeLaw::kSmooth,
+                             .round_tables = true,
+                             .projects_spots = true};
 
 constexpr EngineFalloff kThreeFalloff{[](Metres d, Metres r) { return ThreeJsFalloff(d, r); }};
 constexpr EngineFalloff kBabylonFalloff{&GltfFalloff, WindowPower::kPlain};
@@ -100,41 +106,24 @@ Node Rectangle(const PresetLight& light) {
 constexpr int kSteps = 720;
 constexpr double kStepsPerUnit = 1e6;
 
-// The mean of all C planes over the peak, at the middle of each of 720 steps of gamma.
+// Over the peak, at the middle of each of 720 steps of gamma. The table is round.
 Node RoundProfile(const IntensityTable& table) {
-  constexpr int kTurn = 72;
   Node profile = Node::Array();
   for (int i = 0; i < kSteps; ++i) {
     const Radians gamma((i + 0.5) * std::numbers::pi / kSteps);
-    double sum = 0.0;
-    for (int c = 0; c < kTurn; ++c) {
-      sum += table.At(Radians(2.0 * std::numbers::pi * c / kTurn), gamma).value();
-    }
-    profile.items.push_back(
-        std::round(kStepsPerUnit * sum / kTurn / table.peak().intensity.value()) / kStepsPerUnit);
-  }
-  return profile;
-}
-
-// Of a spot of the squared-linear law.
-Node SpotProfile(const SpotCone& cone) {
-  Node profile = Node::Array();
-  for (int i = 0; i < kSteps; ++i) {
-    const Radians gamma((i + 0.5) * std::numbers::pi / kSteps);
-    const double part = SpotAttenuation(gamma, cone, SpotFalloff::kSquaredLinear);
+    const double part = table.At(Radians(0.0), gamma).value() / table.peak().intensity.value();
     profile.items.push_back(std::round(kStepsPerUnit * part) / kStepsPerUnit);
   }
   return profile;
 }
 
-// three projects what its cone cannot show. "": its cone is what is asked for, or good enough.
-Node ProjectedSpot(const PresetLight& light, SpotForm spots, const ThreeRange& range) {
+// three projects what its cone cannot show.
+Node Spot(const PresetLight& light, const ThreeRange& range) {
   Node document = Punctual(light, range);
-  const bool cone_is_theirs = !light.beam || !light.beam->squared;
-  if (spots == SpotForm::kCone || cone_is_theirs || light.cone.worst <= kConeGoodEnough) {
-    return document;
-  }
-  document.Put("profile", SpotProfile(*light.beam->squared));
+  if (!light.projected) return document;
+  document.Put("projected", Node{{"half_angle_rad", light.projected->half_angle.value()},
+                                 {"texels", kProjectedTexels},
+                                 {"worst_of_axial", light.projected->worst}});
   return document;
 }
 
@@ -168,8 +157,7 @@ Node DomeNode(const PresetLight& light) {
           {"below", NodeOf(halved(-1.0))}};
 }
 
-Node ThreeFigures(const PresetLight& light, const std::string& ies, SpotForm spots,
-                  const ThreeRange& range) {
+Node ThreeFigures(const PresetLight& light, const std::string& ies, const ThreeRange& range) {
   switch (light.form) {
     case LightForm::kRect:
       return Rectangle(light);
@@ -178,22 +166,31 @@ Node ThreeFigures(const PresetLight& light, const std::string& ies, SpotForm spo
     case LightForm::kTable:
       return Measured(light, ies, range);
     case LightForm::kSpot:
-      return ProjectedSpot(light, spots, range);
+      return Spot(light, range);
     default:
       return Punctual(light, range);
   }
 }
 
 Node ThreeNode(const FittedLight& lamp, const PresetLight& light, const std::string& ies,
-               SpotForm spots, const ThreeRange& range) {
+               const ThreeRange& range) {
   const PunctualLight& p = light.punctual;
   Node document = {{"name", p.name},
                    {"color", ColorNode(light)},
                    {"position_m", NodeOf(GltfFromZUp(p.position_m))},
                    {"direction", NodeOf(GltfFromZUp(p.aim))}};
-  document.Put(ThreeFigures(light, ies, spots, range));
+  document.Put(ThreeFigures(light, ies, range));
   document.Put("measured", MeasuredNode(lamp, light));
   return document;
+}
+
+// With the tables that are shown.
+LightFile AsShown(LightFile lights, const std::vector<PresetLight>& forms) {
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    auto& measured = lights.lights[i].distribution;
+    if (measured && forms[i].table) measured->table = *forms[i].table;
+  }
+  return lights;
 }
 
 }  // namespace
@@ -204,7 +201,7 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
   const PresetOptions options = preset_text::InRec709(asked, "three", preset.warnings);
   const auto forms = PresetLightsFrom(lights, kThree, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
-  const auto ies = IesFiles(lights, stem);
+  const auto ies = IesFiles(AsShown(lights, *forms), stem);
   if (!ies) return tl::unexpected(ies.error());
   const std::vector<ThreeRange> ranges = RangesOf(lights, *forms, options, preset.warnings);
   const Rig rig = BuildRig(lights, *forms, options.rig_place);
@@ -213,7 +210,7 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
   std::vector<PresetFile> pictures;
   for (std::size_t i = 0; i < forms->size(); ++i) {
     const std::string table = (*ies)[i] ? (*ies)[i]->contents : std::string();
-    list.items.push_back(ThreeNode(lights.lights[i], (*forms)[i], table, options.spots, ranges[i]));
+    list.items.push_back(ThreeNode(lights.lights[i], (*forms)[i], table, ranges[i]));
     if ((*forms)[i].environment) {
       pictures.push_back(preset_text::PictureFileOf(
           (*forms)[i], stem, options, preset_text::PictureEncoding::kRadiance, preset.warnings));

@@ -101,7 +101,7 @@ def printed(work, beam, engine, mode):
     elif engine == 'three':
         text = open(f'{folder}/{stem(beam)}.three.js').read()
         light = json.JSONDecoder().raw_decode(text[text.index('{', text.index('export const preset')):])[0]['lights'][0]
-        cone = None if 'profile' in light else light.get('three')
+        cone = light['projected'] | {'flux_factor': 1.0} if 'projected' in light else light.get('three')
     else:
         cone = None
     return (cone['worst_of_axial'], cone['flux_factor']) if cone else None

@@ -14,6 +14,17 @@ namespace {
 
 using Json = nlohmann::json;
 
+// A table of more than one plane (of a hand) is rolled by the shadow camera, which looks along the
+// aim with three's y up: C0 to its left, C90 below.   Source: three.js 0.187, IESSpotLightNode,
+// Matrix4.lookAt.
+void LayTable(EngineLight& light) {
+  const Vec3 right = Cross(light.aim, Vec3{0.0, 0.0, 1.0});
+  const double sine = Length(right);
+  constexpr double kUpright = 1e-6;
+  light.x = sine > kUpright ? right * (-1.0 / sine) : Vec3{-1.0, 0.0, 0.0};
+  light.y = Cross(light.x, light.aim);
+}
+
 EngineLight FromThree(const Json& json) {
   EngineLight light;
   light.name = json.at("name").get<std::string>();
@@ -34,7 +45,9 @@ EngineLight FromThree(const Json& json) {
   if (type == "spot") {
     light.kind = EngineLightKind::kSpot;
     light.law = ConeLaw::kSmooth;
-    const Json& cone = json.contains("three") ? json.at("three") : json;
+    const bool projected = json.contains("projected");
+    if (projected) light.law = ConeLaw::kSquared;
+    const Json& cone = !projected && json.contains("three") ? json.at("three") : json;
     light.inner_rad = cone.at("inner_rad").get<double>();
     light.outer_rad = cone.at("outer_rad").get<double>();
     if (json.contains("profile")) light.profile = json.at("profile").get<std::vector<double>>();
@@ -49,11 +62,7 @@ EngineLight FromThree(const Json& json) {
   if (type == "ies") {
     TakeTable(light, json.at("ies").get<std::string>());
     light.emitted /= light.table->peak().intensity.value();  // the loader makes the peak 1
-    // Round about its aim; any frame will do for an axial table.
-    light.x = {light.aim[2], light.aim[0], light.aim[1]};
-    light.x = Cross(light.x, light.aim);
-    light.x = light.x * (1.0 / Length(light.x));
-    light.y = Cross(light.x, light.aim);
+    LayTable(light);
   }
   return light;
 }

@@ -8,7 +8,8 @@
 // cd, lx and cd/m2 divided by the luminance of the colour; exposure turns cd/m2 into pixels.
 export const preset = @DATA@;
 
-const of = (light, able) => (able(light) || !light.fallback ? light : { ...light, ...light.fallback });
+const of = (light, able) => (able(light) || !light.fallback ? light
+  : { ...light, profile: undefined, ...light.fallback });
 
 // ---- three.js ----
 
@@ -17,8 +18,8 @@ function frame(THREE, object, light) {
   object.quaternion.setFromRotationMatrix(new THREE.Matrix4().makeBasis(x, y, z));
 }
 
-// A beam's own profile, projected: three's cone is a smoothstep and nothing else. Beams wider than
-// 80 degrees keep the cone.
+// A beam itself, projected: three's cone is a smoothstep and nothing else. Spots wider than 80
+// degrees keep the cone; a measured beam does where it has more beyond them than the cone strays.
 const widestProjected = 80 * Math.PI / 180;
 
 function beamEnd(profile) {
@@ -33,17 +34,23 @@ function profileAt(profile, angle) {
   return profile[i] + (profile[i + 1] - profile[i]) * Math.min(1, at - i);
 }
 
+function squaredAt(light, angle) {
+  const rim = Math.cos(light.outer_rad);
+  const t = (Math.cos(angle) - rim) / Math.max(1e-12, Math.cos(light.inner_rad) - rim);
+  return Math.min(1, Math.max(0, t)) ** 2;
+}
+
 function threeProjected(THREE, color, light) {
-  const size = 1024;
-  const end = Math.min(widestProjected, beamEnd(light.profile));
-  const angle = Math.min(end * 1.03 + 0.005, widestProjected + 0.02);
+  const { half_angle_rad: angle, texels: size } = light.projected
+    ?? { half_angle_rad: Math.min(beamEnd(light.profile), widestProjected) * 1.03 + 0.005, texels: 1024 };
+  const partAt = (at) => (light.projected ? squaredAt(light, at) : profileAt(light.profile, at));
   const texels = new Uint16Array(size * size * 4);
   const half = THREE.DataUtils.toHalfFloat;
   const one = half(1);
   for (let y = 0, t = 0; y < size; ++y) {
     for (let x = 0; x < size; ++x, t += 4) {
       const r = Math.hypot(2 * (x + 0.5) / size - 1, 2 * (y + 0.5) / size - 1);
-      const v = half(profileAt(light.profile, Math.atan(r * Math.tan(angle))));
+      const v = half(partAt(Math.atan(r * Math.tan(angle))));
       texels[t] = texels[t + 1] = texels[t + 2] = v;
       texels[t + 3] = one;
     }
@@ -62,7 +69,7 @@ function threeLight(THREE, light, options) {
   const color = new THREE.Color().setRGB(...light.color, THREE.LinearSRGBColorSpace);
   let lamp;
   if (light.type === 'point') lamp = new THREE.PointLight(color, light.intensity, light.range_m ?? 0, 2);
-  if (light.type === 'spot' && light.profile) lamp = threeProjected(THREE, color, light);
+  if (light.type === 'spot' && (light.projected ?? light.profile)) lamp = threeProjected(THREE, color, light);
   else if (light.type === 'spot') {
     const cone = light.three ?? light;
     lamp = new THREE.SpotLight(color, light.intensity, light.range_m ?? 0, cone.outer_rad,
@@ -168,9 +175,14 @@ function threeCamera(THREE, rig) {
 
 /** The lights (and cards and camera) as a new scene, in cd/m2 before exposure. */
 export function buildThree(THREE, options = {}) {
-  // Without the WebGPU build's IES lights a measured beam is projected, if it is no wider than that.
-  const projected = (light) => (beamEnd(light.profile) > widestProjected ? light
-    : { ...light, type: 'spot', fallback: undefined });
+  // Without the WebGPU build's IES lights a measured beam is projected.
+  const projected = (light) => {
+    const { profile, fallback } = light;
+    const from = Math.floor((widestProjected / Math.PI) * profile.length);
+    const cut = Math.max(...profile.slice(from)) / Math.max(1e-9, profile[0]);
+    const cone = Math.max(1e-3, fallback?.three?.worst_of_axial ?? 0);
+    return cut > cone ? light : { ...light, type: 'spot', fallback: undefined };
+  };
   const able = (light) => light.type !== 'ies' || (THREE.IESSpotLight && options.IESLoader);
   const scene = new THREE.Scene();
   scene.background = new THREE.Color(0, 0, 0);
