@@ -2,12 +2,10 @@
 #include "lightcal/calibrate/states/control_sweeps.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <iterator>
 #include <optional>
 #include <utility>
 
-#include "lightcal/core/parallel.h"
 #include "lightcal/fit/states/state_answer.h"
 
 namespace lightcal {
@@ -89,14 +87,9 @@ std::vector<ControlSweep> ControlSweepsOf(const FittedLight& light) {
 }
 
 std::vector<ControlSweep> ControlSweepsOf(const LightFile& file) {
-  std::vector<std::vector<ControlSweep>> of_lights(file.lights.size());
-  ParallelFor(static_cast<int>(file.lights.size()), [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
-    of_lights[at] = ControlSweepsOf(file.lights[at]);
-  });
   std::vector<ControlSweep> sweeps;
-  for (std::vector<ControlSweep>& of_light : of_lights) {
-    std::ranges::move(of_light, std::back_inserter(sweeps));
+  for (const FittedLight& light : file.lights) {
+    std::ranges::move(ControlSweepsOf(light), std::back_inserter(sweeps));
   }
   return sweeps;
 }
