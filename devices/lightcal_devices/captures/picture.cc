@@ -21,6 +21,7 @@
 #include "lightcal_devices/captures/radiance_header.h"
 #include "lightcal_devices/captures/radiance_pixels.h"
 #include "lightcal_devices/captures/sample_check.h"
+#include "lightcal_devices/captures/tiff_sensitivity.h"
 
 namespace lightcal::devices {
 namespace {
@@ -56,17 +57,22 @@ std::string TextOf(const OiioPicture& picture, std::string_view name) {
   return "";
 }
 
-void TakeCameraTags(const OiioPicture& picture, FrameInfo& info) {
+IsoTags IsoTagsOf(const OiioPicture& picture, const std::string& format, std::string_view bytes) {
+  if (format == "tiff") return IsoTagsOfTiff(bytes);
+  return {.photographic = NumberOf(picture, "Exif:PhotographicSensitivity"),
+          .type = NumberOf(picture, "Exif:SensitivityType"),
+          .standard_output = NumberOf(picture, "Exif:StandardOutputSensitivity"),
+          .recommended = NumberOf(picture, "Exif:RecommendedExposureIndex"),
+          .iso_speed = NumberOf(picture, "Exif:ISOSpeed")};
+}
+
+void TakeCameraTags(const OiioPicture& picture, const IsoTags& iso, FrameInfo& info) {
   WrittenExposure written;
   written.exposure_time_s = NumberOf(picture, "ExposureTime");
   written.shutter_apex = NumberOf(picture, "Exif:ShutterSpeedValue");
   written.f_number = NumberOf(picture, "FNumber");
   written.aperture_apex = NumberOf(picture, "Exif:ApertureValue");
-  written.iso = IsoOfTags({.photographic = NumberOf(picture, "Exif:PhotographicSensitivity"),
-                           .type = NumberOf(picture, "Exif:SensitivityType"),
-                           .standard_output = NumberOf(picture, "Exif:StandardOutputSensitivity"),
-                           .recommended = NumberOf(picture, "Exif:RecommendedExposureIndex"),
-                           .iso_speed = NumberOf(picture, "Exif:ISOSpeed")});
+  written.iso = IsoOfTags(iso);
   info.exposure = ExposureFromTags(written, info.file, info.warnings);
   const auto positive = [](std::optional<double> v) { return v && std::isfinite(*v) && *v > 0.0; };
   if (const auto focal = NumberOf(picture, "Exif:FocalLength"); positive(focal)) {
@@ -164,7 +170,7 @@ Result<FrameInfo> Describe(const OiioPicture& picture, const std::string& path,
     levels.white.fill(levels.maximum);
     info.levels = levels;
   }
-  TakeCameraTags(picture, info);
+  TakeCameraTags(picture, IsoTagsOf(picture, format, bytes), info);
   if (format == "hdr") {
     if (auto ok = TakeRadianceHeader(bytes, info); !ok) return Propagate(std::move(ok));
   }
