@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -88,26 +89,71 @@ WallSelection SelectionOf(const CaptureDescription& capture, const FrameInfo& in
   return selection;
 }
 
-// Mean of the channels of what shows the wall, the board included: paper and ink have no colour.
-Column3 MeanOfWall(View2d<const float> rgb, const WallSelection& selection) {
+// Calls `visit` with every pixel that shows the wall, the board included.
+template <class Visit>
+void ForWall(View2d<const float> picture, const WallSelection& selection, const Visit& visit) {
   const auto holds = [](const Region& r, int x, int y) {
     return x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height;
   };
-  const Region all = selection.wall.value_or(Region{0, 0, rgb.width(), rgb.height()});
-  Column3 sum{};
-  double count = 0.0;
-  for (int y = 0; y < rgb.height(); ++y) {
-    for (int x = 0; x < rgb.width(); ++x) {
+  const Region all = selection.wall.value_or(Region{0, 0, picture.width(), picture.height()});
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
       const auto masked = [&](const Region& mask) { return holds(mask, x, y); };
-      if (!holds(all, x, y) || std::ranges::any_of(selection.masks, masked)) continue;
-      for (int c = 0; c < 3; ++c) {
-        sum[static_cast<std::size_t>(c)] += double{rgb(x, y, rgb.channels() == 3 ? c : 0)};
-      }
-      count += 1.0;
+      if (holds(all, x, y) && !std::ranges::any_of(selection.masks, masked)) visit(x, y);
     }
   }
+}
+
+// Mean of the channels of the wall: the board's paper and ink have no colour.
+Column3 MeanOfWall(View2d<const float> rgb, const WallSelection& selection) {
+  Column3 sum{};
+  double count = 0.0;
+  ForWall(rgb, selection, [&](int x, int y) {
+    for (int c = 0; c < 3; ++c) {
+      sum[static_cast<std::size_t>(c)] += double{rgb(x, y, rgb.channels() == 3 ? c : 0)};
+    }
+    count += 1.0;
+  });
   for (double& channel : sum) channel /= std::max(1.0, count);
   return sum;
+}
+
+// Pixels of a channel at the largest value that the wall shows there, and those just below it.
+struct TopPixels {
+  int at = 0, below = 0;
+};
+TopPixels TopOfWall(View2d<const float> samples, int channel, const WallSelection& selection) {
+  constexpr float kJustBelow = 1.0F - 0x1p-9F;  // two steps of 16 bit floats or more
+  std::vector<float> wall;
+  ForWall(samples, selection, [&](int x, int y) { wall.push_back(samples(x, y, channel)); });
+  TopPixels top;
+  if (wall.empty()) return top;
+  const float most = *std::ranges::max_element(wall);
+  for (const float value : wall) {
+    if (value == most) {
+      ++top.at;
+    } else if (value > kJustBelow * most) {
+      ++top.below;
+    }
+  }
+  return top;
+}
+
+// Of what rises smoothly to its largest value as many pixels lie just below it, in 16 bit floats
+// too: where hardly any do, the picture was cut off there, or drawn.
+void WarnOfPlateau(const FrameInfo& info, View2d<const float> samples,
+                   const WallSelection& selection, Evidence& evidence) {
+  constexpr int kPlateau = 4, kMoreThanBelow = 4;
+  for (int c = 0; c < samples.channels(); ++c) {
+    const TopPixels top = TopOfWall(samples, c, selection);
+    if (top.at < kPlateau || top.at <= kMoreThanBelow * top.below) continue;
+    evidence.warnings.push_back(
+        {"maybe_clipped", info.file,
+         std::to_string(top.at) +
+             " pixels of the wall share the picture's largest value; if they are clipped there, "
+             "the lamp is brighter than this and its beam narrower: merge a shorter frame too"});
+    return;
+  }
 }
 
 Xyz MeanColor(View2d<const float> rgb, const WallSelection& selection,
@@ -143,6 +189,9 @@ Result<WallPicture> FromAbsolutePicture(const CaptureDescription& capture, const
   auto color = ColorOfFrame(*frame, out.selection, luminance->nits_per_unit);
   if (!color) return tl::unexpected(color.error());
   evidence.AddWarnings(luminance->warnings);
+  if (const auto* const samples = std::get_if<View2d<const float>>(&frame->samples)) {
+    WarnOfPlateau(info, *samples, out.selection, evidence);
+  }
   evidence.AddFile(info.file);
   out.nits = {luminance->width, luminance->height, std::move(luminance->nits), info.focal_length};
   out.whole_width = info.width;
