@@ -46,8 +46,7 @@ tl::unexpected<Error> AtCapture(const CaptureDescription& capture, Error error) 
   if (error.code == "no_exposure_metadata") {
     error.message =
         "the frames do not say their exposure; give exposure_s = [..], f_number and iso in the "
-        "[[capture]], or anchor_illuminance_lx (" +
-        error.message + ")";
+        "[[capture]]; of a card or wall anchor_illuminance_lx stands for f_number and iso";
   }
   error.subject = capture.where + " (" + error.subject + ")";
   return tl::unexpected(std::move(error));
@@ -76,6 +75,11 @@ Result<CapturePicture> MergeCapture(const Session& session, const CaptureDescrip
                                     const std::optional<SpotReading>& anchor,
                                     const Sources& sources) {
   const FrameInfo& info = bracket.frames.front();
+  if (bracket.frames.size() == 1 && info.white_luminance && !info.exposure.time) {
+    return Refused("merged_picture", info.file,
+                   "is in cd/m^2 already and no longer says which of its pixels are saturated or "
+                   "how sure they are; give the frames that it was merged from");
+  }
   auto color = ColorOfPicture(info);
   if (!color) return Propagate(std::move(color));
   auto camera = CameraOfCapture(session, capture, sources);

@@ -65,7 +65,8 @@ struct PictureFindings {
                                           const Sources& sources);
 
 // Those frames merged with sigma, in colour where there is any, by capture.camera where it is
-// given. Fails and refused: as MergeFrames, CameraFileFromJson.
+// given. Fails and refused: merged_picture (one in cd/m^2 that says no exposure), and as
+// MergeFrames, CameraFileFromJson.
 [[nodiscard]] Result<CapturePicture> MergeCapture(const Session& session,
                                                   const CaptureDescription& capture,
                                                   const Bracket& bracket,
