@@ -126,17 +126,27 @@ Result<CaptureReading> ReadSource(const Session& session, const CaptureDescripti
   if (!picture) return tl::unexpected(picture.error());
   const MergedBracket& merged = picture->merged;
   for (const Warning& warning : merged.warnings) {
-    // A clipped lamp is refused; what else is clipped here does not count.
+    // A clipped lamp is refused or named; what else is clipped here does not count.
     if (warning.code != "clipped") evidence.warnings.push_back(warning);
   }
   const auto source = MeasureIn(merged, capture, info, region);
+  const bool anchored = capture.anchor_illuminance.has_value();
+  if (!source && anchored && source.error().code == "source_clipped") {
+    evidence.warnings.push_back(
+        {"source_clipped", capture.where,
+         "the lamp is saturated in every frame: its intensity is what the meter read; its "
+         "luminance, size and colour this picture does not tell; expose shorter, stop down or use "
+         "an ND filter, or state its size"});
+    AddCapture(session, capture, merged, evidence);
+    return ReadingOfPicture(session, capture, *picture, {},
+                            {.illuminance = *capture.anchor_illuminance, .of_luminance = true});
+  }
   if (!source) return tl::unexpected(source.error());
   const Xyz seen = ColorOfFace(merged, *source, region);
   const auto lamp = LuminanceOfLamp(session, capture, *picture, seen, sources);
   if (!lamp) return tl::unexpected(lamp.error());
   AddCapture(session, capture, merged, evidence);
   evidence.pictures.push_back(RecordedOf(capture, merged, lamp->nits / seen.Y));
-  const bool anchored = capture.anchor_illuminance.has_value();
   CaptureReading out = ReadingOfPicture(
       session, capture, *picture, *lamp,
       {.illuminance = source->illuminance * (lamp->nits / seen.Y),

@@ -10,7 +10,8 @@ namespace lightcal {
 // for what the camera makes of this lamp: one reading at distance_m. What else lights the room is
 // not in it. A disk, sphere, rect or tube whose size the session does not give takes that of its
 // luminous face; warned where it gives another: source_size_differs. An anchored capture is its
-// lux meter's reading, taken at the camera; the picture adds size and colour.
+// lux meter's reading, taken at the camera; the picture adds size and colour, of a clipped
+// lamp neither (warned: source_clipped).
 // Independent: noise. Shared: the scale (ISO speed), the correction, the field of view (0.5 %).
 // Refused: as OpenCapture, MergeCapture, PixelSolidAngles, MeasureSource, LuminanceOfLamp.
 [[nodiscard]] Result<CaptureReading> ReadSource(const Session& session,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <optional>
 
@@ -15,7 +16,9 @@ namespace lightcal {
 namespace {
 
 constexpr int kStripRows = 32;
-constexpr std::size_t kPad = kLanes;  // samples before and after a row of the strip
+constexpr std::size_t kPad = kLanes;     // samples before and after a row of the strip
+constexpr float kBoundFrom = 0.5F;       // of the clip, after flat field and dark frame
+constexpr float kBoundVariance = 0.98F;  // over the value's square (merge_bracket.h: 1)
 
 // One coefficient a lane for a sample dx to the right and dy below.
 struct Tap {
@@ -112,12 +115,14 @@ class Strip {
         stride_(samples_ + 2 * kPad),
         column_period_(ColumnPeriod(merger.frames()[0])),
         value_(stride_ * static_cast<std::size_t>(most_rows + 2)),
-        variance_(value_.size()) {}
+        variance_(value_.size()),
+        bound_(value_.size(), 0) {}
 
   std::size_t Fill(int first, int count) {
     const SignalFrame& frame = merger_.frames()[0];
     const int top = std::max(0, first - 1);
     const int end = std::min(frame.height, first + count + 1);
+    has_bounds_ = false;
     if (top < first) static_cast<void>(MergeInto(top, top, 1, first));
     const std::size_t clipped = MergeInto(first, first, count, first);
     if (end > first + count) static_cast<void>(MergeInto(end - 1, end - 1, 1, first));
@@ -127,43 +132,64 @@ class Strip {
     }
     return clipped;
   }
-  [[nodiscard]] const float* value(int y, int first) const { return Row(value_, y, first); }
-  [[nodiscard]] const float* variance(int y, int first) const { return Row(variance_, y, first); }
+  [[nodiscard]] const float* value(int y, int first) const { return value_.data() + At(y, first); }
+  [[nodiscard]] const float* variance(int y, int first) const {
+    return variance_.data() + At(y, first);
+  }
+  // 1 where a sample is clipped in every frame.
+  [[nodiscard]] const std::uint8_t* bound(int y, int first) const {
+    return bound_.data() + At(y, first);
+  }
+  [[nodiscard]] bool has_bounds() const { return has_bounds_; }
 
  private:
-  [[nodiscard]] const float* Row(const std::vector<float>& plane, int y, int first) const {
-    return plane.data() + static_cast<std::size_t>(y - first + 1) * stride_ + kPad;
-  }
-  float* Row(std::vector<float>& plane, int y, int first) {
-    return plane.data() + static_cast<std::size_t>(y - first + 1) * stride_ + kPad;
+  [[nodiscard]] std::size_t At(int y, int first) const {
+    return static_cast<std::size_t>(y - first + 1) * stride_ + kPad;
   }
   // Merges rows from `source` on to where the rows from `y` on belong.
   std::size_t MergeInto(int y, int source, int count, int first) {
     const auto width = static_cast<int>(samples_);
     const auto stride = static_cast<std::ptrdiff_t>(stride_);
     const std::size_t clipped = merger_.MergeRows(
-        source, count, View2d<float>(Row(value_, y, first), width, count, 1, stride),
-        View2d<float>(Row(variance_, y, first), width, count, 1, stride));
+        source, count, View2d<float>(value_.data() + At(y, first), width, count, 1, stride),
+        View2d<float>(variance_.data() + At(y, first), width, count, 1, stride));
     for (int i = 0; i < count; ++i) {
+      const std::size_t at = At(y + i, first);
+      float *const value = &value_[at], *const variance = &variance_[at];
       if (!corrections_.empty()) {
-        corrections_.Apply(merger_.frames()[0], source + i, Row(value_, y + i, first),
-                           Row(variance_, y + i, first));
+        corrections_.Apply(merger_.frames()[0], source + i, value, variance);
       }
-      PadRow(Row(value_, y + i, first));
-      PadRow(Row(variance_, y + i, first));
+      std::fill_n(&bound_[at], samples_, std::uint8_t{0});
+      if (clipped > 0) MarkBounds(source + i, value, variance, &bound_[at]);
+      PadRow(value);
+      PadRow(variance);
+      PadRow(&bound_[at]);
     }
+    has_bounds_ = has_bounds_ || clipped > 0;
     return clipped;
   }
-  void PadRow(float* row) const {
+  void MarkBounds(int source, const float* value, const float* variance,
+                  std::uint8_t* bound) const {
+    const SignalFrame& frame = merger_.frames()[0];
+    const auto& channels = frame.channel[static_cast<std::size_t>(source % frame.row_period)];
+    const float share = kBoundFrom / static_cast<float>(merger_.plan().exposure[0]);
+    for (std::size_t i = 0; i < samples_; ++i) {
+      const float bright = share * frame.clip[static_cast<std::size_t>(channels[i % kLanes])];
+      bound[i] = value[i] > bright && variance[i] > kBoundVariance * value[i] * value[i] ? 1 : 0;
+    }
+  }
+  template <class Sample>
+  void PadRow(Sample* row) const {
     row[-1] = row[column_period_ - 1];
     row[samples_] = row[samples_ - column_period_];
   }
 
   const BracketMerger& merger_;
   const SampleCorrections& corrections_;
-  std::size_t samples_, stride_;
-  std::size_t column_period_;
+  std::size_t samples_, stride_, column_period_;
   std::vector<float> value_, variance_;
+  std::vector<std::uint8_t> bound_;
+  bool has_bounds_ = false;
 };
 
 // Sum of the taps over a row; squares of the coefficients for variances.
@@ -197,7 +223,8 @@ void ApplyRow(const float* samples, int channels, const std::array<double, 3>& r
 // the row and the row below.
 void EncodedVariances(const float* variances, int channels, const std::array<double, 3>& row,
                       const EncodedErrors& errors,
-                      const std::array<std::vector<float>, 3>& luminance, std::span<float> out) {
+                      const std::array<std::vector<float>, 3>& luminance,
+                      std::span<const std::uint8_t> bounds, std::span<float> out) {
   const auto shared = static_cast<float>(errors.shared);
   const auto misfit2 = static_cast<float>(errors.misfit * errors.misfit);
   constexpr auto kHidden2 = static_cast<float>(kHiddenDetail * kHiddenDetail);
@@ -226,8 +253,9 @@ void EncodedVariances(const float* variances, int channels, const std::array<dou
     }
     const float detail = std::max(0.0F, square - mean * mean);
     const float in_toe = y > 0.0F && y < toe ? toe_sd * std::log(toe / y) : 0.0F;
-    out[x] = (1.0F - shared) * squares + shared * sum * sum + (misfit2 + in_toe * in_toe) * y * y +
-             kHidden2 * detail;
+    const float own =
+        (1.0F - shared) * squares + shared * sum * sum + (misfit2 + in_toe * in_toe) * y * y;
+    out[x] = (bounds.empty() || bounds[x] == 0 ? own : std::max(own, y * y)) + kHidden2 * detail;
   }
 }
 
@@ -249,24 +277,60 @@ class Mapper {
     ApplyRow(strip.value(y, first), frame_.channels, rows_.picture[channel], false, out);
   }
   void Sigma(const Strip& strip, int y, int first, std::span<float> out) const {
-    if (mosaic_) {
-      ApplyKernel(luminance_[Phase(y)], strip, y, first, true, out);
-    } else if (encoded_ != nullptr) {
+    const std::vector<std::uint8_t> bounds = BoundsOf(strip, y, first, out.size());
+    if (encoded_ == nullptr || mosaic_) {
+      Luminance(strip, y, first, true, out);
+      if (!bounds.empty()) WidenBounds(bounds, strip, y, first, out);
+    } else {
       std::array<std::vector<float>, 3> luminance;
       for (int i = 0; i < 3; ++i) {
         auto& line = luminance[static_cast<std::size_t>(i)];
         line.resize(out.size());
-        ApplyRow(strip.value(y + i - 1, first), frame_.channels, rows_.luminance, false, line);
+        Luminance(strip, y + i - 1, first, false, line);
       }
       EncodedVariances(strip.variance(y, first), frame_.channels, rows_.luminance, *encoded_,
-                       luminance, out);
-    } else {
-      ApplyRow(strip.variance(y, first), frame_.channels, rows_.luminance, true, out);
+                       luminance, bounds, out);
     }
     kernels::SquareRoots(out.data(), out.size(), out.data());
   }
 
  private:
+  void Luminance(const Strip& strip, int y, int first, bool variances, std::span<float> out) const {
+    if (mosaic_) return ApplyKernel(luminance_[Phase(y)], strip, y, first, variances, out);
+    ApplyRow(variances ? strip.variance(y, first) : strip.value(y, first), frame_.channels,
+             rows_.luminance, variances, out);
+  }
+  // 1 where any sample that a pixel's luminance is made of is a lower bound; empty where none is.
+  [[nodiscard]] std::vector<std::uint8_t> BoundsOf(const Strip& strip, int y, int first,
+                                                   std::size_t width) const {
+    std::vector<std::uint8_t> bounds;
+    if (!strip.has_bounds()) return bounds;
+    bounds.resize(width);
+    if (mosaic_) {
+      for (const Tap& tap : luminance_[Phase(y)]) {
+        const std::uint8_t* const marks = strip.bound(y + tap.dy, first) + tap.dx;
+        for (std::size_t x = 0; x < width; ++x) {
+          if (tap.value[x % kLanes] != 0.0F) bounds[x] |= marks[x];
+        }
+      }
+      return bounds;
+    }
+    const auto channels = static_cast<std::size_t>(frame_.channels);
+    const std::uint8_t* const marks = strip.bound(y, first);
+    for (std::size_t i = 0; i < width * channels; ++i) {
+      if (rows_.luminance[i % channels] != 0.0) bounds[i / channels] |= marks[i];
+    }
+    return bounds;
+  }
+  // What the channels of a clipped pixel lack they lack together, and nobody knows how much.
+  void WidenBounds(std::span<const std::uint8_t> bounds, const Strip& strip, int y, int first,
+                   std::span<float> variance) const {
+    std::vector<float> luminance(variance.size());
+    Luminance(strip, y, first, false, luminance);
+    for (std::size_t x = 0; x < bounds.size(); ++x) {
+      if (bounds[x] != 0) variance[x] = std::max(variance[x], luminance[x] * luminance[x]);
+    }
+  }
   [[nodiscard]] std::size_t Phase(int y) const {
     return static_cast<std::size_t>(y % frame_.row_period);
   }

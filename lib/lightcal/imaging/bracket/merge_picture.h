@@ -26,10 +26,11 @@ struct PictureRows {
 // Rows [first, first + count) of the picture, row i of the views being row first + i; `sigma` (one
 // channel, 1 standard deviation of the luminance row) may be empty. A mosaic's missing colours are
 // the mean of the same colour's nearest pixels in 3 x 3 (bilinear); a pixel's variance is that of
-// this sum, its neighbours' noise taken as independent; of codes as encoded_errors.h has it. Works
-// strip by strip, on all processors. Returns how many samples are clipped in every frame.
-// Refused: pattern_unknown (a mosaic with a colour missing in some 3 x 3 pixels, or a picture
-// smaller than its pattern).
+// this sum, its neighbours' noise taken as independent; of codes as encoded_errors.h has it. A
+// pixel that holds any sample clipped in every frame is a lower bound, its sigma as large as
+// itself. Works strip by strip, on all processors. Returns how many samples are clipped in every
+// frame. Refused: pattern_unknown (a mosaic with a colour missing in some 3 x 3 pixels, or a
+// picture smaller than its pattern).
 [[nodiscard]] Result<std::size_t> MergePicture(const BracketMerger& merger, const PictureRows& rows,
                                                int first, int count, View2d<float> picture,
                                                View2d<float> sigma, const Progress& progress = {});
