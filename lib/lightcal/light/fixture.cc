@@ -18,9 +18,7 @@ constexpr std::array<OffsetPart, 7> kOffsets = {{
 }};
 // From its mount, or from its front, where a person finds a point again.
 constexpr std::array<OffsetPart, 2> kOffsetsOfSoftbox = {{{0.5, -0.30, 0.08}, {0.5, 0.0, 0.05}}};
-// The last: globes of 20 to 40 cm, counted from their glass.
-constexpr std::array<OffsetPart, 3> kOffsetsOfAny = {
-    {{0.67, 0.03, 0.06}, {0.29, -0.20, 0.12}, {0.04, 0.15, 0.05}}};
+constexpr std::array<OffsetPart, 2> kOffsetsOfAny = {{{0.72, 0.03, 0.06}, {0.28, -0.20, 0.12}}};
 
 }  // namespace
 
