@@ -345,7 +345,9 @@ TEST(LocateRefusals, MetersThatLookAwayFromOneAnotherSeeNoLamp) {
   for (const Vec3& p : SquareAndCentre(2.0)) twin.Flat(p);
   twin.session().readings[1].reading.normal = Vec3{0, 0, -1};
   twin.session().readings[1].reading.position_m = Vec3{1, -1, -0.5};
-  EXPECT_EQ(LocateRefused(twin.session()).code, "no_position");
+  const Error error = LocateRefused(twin.session());
+  EXPECT_EQ(error.code, "model_misfit");
+  EXPECT_NE(error.message.find("reading 1 ("), std::string::npos) << error.message;
 }
 
 // ---- other readings beside ----

@@ -297,9 +297,10 @@ tl::unexpected<Error> RefuseMistake(const Kept& kept, std::span<const Suspect> n
         "the readings contradict one another, and too few are right to tell which is wrong: check "
         "how each place, normal and lux value was written down, or read two places more";
   } else if (named.size() == 1) {
-    text = reading(named.front()) +
-           " contradicts the others: check how its place and its lux value were written down, or "
-           "read there again";
+    text =
+        reading(named.front()) +
+        " contradicts the others: check how its place, its normal and its lux value were written "
+        "down, or read there again";
   } else {
     for (std::size_t i = 0; i < named.size(); ++i) {
       text += (i == 0 ? "" : i + 1 < named.size() ? ", " : " or ") + reading(named[i]);
