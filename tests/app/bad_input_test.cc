@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"NoReadings", kHead, 3, "no_readings", "key"},
         // An offset of 1.06 m below the lamp, and 11 cd of 300, were learned of it.
         Case{"TwoReadingsOfALampElsewhere", kHead + Placed({{0.5, 0.5, 75.9}, {1.0, 1.0, 114.5}}),
-             3, "model_misfit", "1.06 m before the lamp: do the lamp and the meters stand where"},
+             3, "model_misfit", "1.1 m before the point that distances are counted from"},
         Case{"ThreeReadingsOfALampElsewhere",
              kHead + Placed({{0.0, 0.0, 39.6}, {1.0, 0.0, 49.61}, {0.0, 1.0, 78.79}}), 3,
              "model_misfit", "do the lamp and the meters stand where"},
