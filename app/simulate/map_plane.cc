@@ -76,8 +76,9 @@ Scenery SceneryOf(const Where& where, const std::array<int, 2>& axes,
     const bool beam = std::holds_alternative<SpotSource>(lamp.source) ||
                       std::holds_alternative<TableSource>(lamp.source);
     const Vec3& aim = lamp.pose.frame.z;
+    if (!beam || aim[where.axis] == 0.0) continue;
     const double along = (where.at - p[where.axis]) / aim[where.axis];
-    if (!beam || !(along > 0.0) || along > kAimReach * height) continue;
+    if (!(along > 0.0) || along > kAimReach * height) continue;
     for (std::size_t k = 0; k < 2; ++k) out.around[k].Add(p[axes[k]] + along * aim[axes[k]]);
   }
   if (out.around[0].low > out.around[0].high) out.around = {Extent{0.0, 0.0}, Extent{0.0, 0.0}};
