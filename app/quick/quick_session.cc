@@ -14,9 +14,9 @@
 namespace lightcal::app {
 namespace {
 
+enum class Least { kAboveZero, kFromZero };
 // Fills an optional quantity from an option's text; an empty text leaves it absent.
 // Wrong usage, of that option: what is below its least value.
-enum class Least { kAboveZero, kFromZero };
 template <class Unit, class Parse>
 Result<void> Fill(std::optional<Unit>& target, const char* option, const std::string& text,
                   Parse parse, Least least = Least::kAboveZero) {

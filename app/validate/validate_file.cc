@@ -305,6 +305,7 @@ void ValidateText(const std::string& text, FileVerdict& verdict) {
   const std::string name = LowerAscii(fs::path(verdict.path).filename().string());
   const auto named = [&](std::string_view ending) { return name.ends_with(ending); };
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  std::optional<std::string> for_others = WrittenForOthers(verdict.path, text);
   if (named(".gdtf")) {
     ValidateGdtf(text, verdict);
   } else if (named(".toml")) {
@@ -313,13 +314,12 @@ void ValidateText(const std::string& text, FileVerdict& verdict) {
     ValidateJournal(text, verdict);
   } else if (IsEngineFile(name)) {
     ValidateEngineFile(text, verdict);
-  } else if (first != std::string::npos && text[first] == '{' &&
-             !WrittenForOthers(verdict.path, text)) {
+  } else if (first != std::string::npos && text[first] == '{' && !for_others) {
     ValidateJson(text, verdict);
   } else if (named(".ies") || named(".ldt") || IsIes(text)) {
     ValidatePhotometric(verdict);
-  } else if (auto format = WrittenForOthers(verdict.path, text)) {
-    verdict.format = *std::move(format);
+  } else if (for_others) {
+    verdict.format = *std::move(for_others);
     verdict.holds = "written by lightcal, no reader here";
     verdict.checked = false;
   } else {

@@ -38,6 +38,7 @@ struct NumberWithUnit {
 inline constexpr std::string_view kWriteALimit =
     "light beyond the meter's range is written as a limit, the end of that range: >20000";
 
-inline constexpr double kLuxPerFootcandle = 1.0 / (0.3048 * 0.3048);
+inline constexpr double kMetresPerFoot = 0.3048;  // exactly
+inline constexpr double kLuxPerFootcandle = 1.0 / (kMetresPerFoot * kMetresPerFoot);
 
 }  // namespace lightcal

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "lightcal/colorimetry/rgb_spaces.h"
+#include "lightcal/core/even_directions.h"
 #include "lightcal/core/matrix3.h"
 
 namespace lightcal {
@@ -163,29 +164,18 @@ HarmonicsError WorstOfHarmonics(const EnvironmentPicture& picture) {
   constexpr int kRound = 200;
   constexpr double kDark = 1e-3;  // of the brightest normal: where nothing is lit
   std::vector<Vec3> normals = {{0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {1, 0, 0}, {0, -1, 0}, {-1, 0, 0}};
-  for (int i = 0; i < kRound; ++i) {  // Fibonacci's lattice
-    const double up = 1.0 - (2.0 * i + 1.0) / kRound;
-    const double aside = std::sqrt(1.0 - up * up), turn = kPi * (3.0 - std::sqrt(5.0)) * i;
-    normals.push_back({aside * std::cos(turn), aside * std::sin(turn), up});
-  }
-  const auto luminance = [](const auto& rgb) {
+  for (int i = 0; i < kRound; ++i) normals.push_back(EvenDirection(i, kRound));
+  const auto luminance = [](const Vec3& rgb) {
     return LuminanceOfRgb({rgb[0], rgb[1], rgb[2]}, RgbSpace::kSrgb);
   };
-  std::vector<double> own(normals.size(), 0.0);
-  Harmonics harmonics{};
-  ForSmallPixels(picture, [&](const Vec3& direction, double omega, const double* rgb) {
-    const double light = omega * luminance(rgb);
-    const auto basis = BasisOf(direction);
-    for (std::size_t i = 0; i < basis.size(); ++i) harmonics[i][0] += light * basis[i];
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-      own[i] += light * std::max(0.0, Dot(normals[i], direction));
-    }
-  });
+  std::vector<double> own;
+  for (const Vec3& rgb : IrradianceOn(picture, normals)) own.push_back(luminance(rgb));
+  const Harmonics harmonics = RadianceHarmonics(picture, [](const Vec3& ours) { return ours; });
   HarmonicsError worst;
   const double least = kDark * *std::ranges::max_element(own);
   for (std::size_t i = 0; i < normals.size(); ++i) {
     if (!(own[i] > least)) continue;
-    const HarmonicsError here{normals[i], own[i], IrradianceOn(harmonics, normals[i])[0]};
+    const HarmonicsError here{normals[i], own[i], luminance(IrradianceOn(harmonics, normals[i]))};
     if (std::abs(here.relative()) > std::abs(worst.relative())) worst = here;
   }
   return worst;

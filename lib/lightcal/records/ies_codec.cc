@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
 #include "lightcal/records/photometric_codec.h"
 #include "lightcal/records/photometric_text.h"
 
@@ -18,7 +19,6 @@ using records::kLeastLumens;
 using records::kMostLumens;
 
 constexpr std::string_view kTilt = "TILT=";
-constexpr double kMetresPerFoot = 0.3048;
 constexpr double kMostAngles = 1e6;
 
 enum class Edition : std::uint8_t { k1986, k1991, k1995, k2002, k2019 };

@@ -123,26 +123,6 @@ void AddWalls(const Observations& observations, const WallPrior& prior, PlacedPr
   }
 }
 
-// How the lamp shines more to one side than to another, about the mean direction to its readings.
-void AddGradient(const Vec3& sd, PlacedProblem& problem) {
-  Vec3 middle{};
-  int count = 0;
-  const auto seen = [](const PlacedRow& row) { return row.direct_gain > 0.0 && row.position; };
-  for (const PlacedRow& row : problem.estimation.rows) {
-    if (!seen(row) || !problem.near) continue;
-    const Vec3 way = *row.position - *problem.near;
-    middle = middle + way * (1.0 / Length(way));
-    ++count;
-  }
-  if (count > 0) middle = middle * (1.0 / count);
-  for (PlacedRow& row : problem.estimation.rows) {
-    if (seen(row)) row.middle = middle;
-  }
-  for (int k = 0; k < 3; ++k) {
-    problem.estimation.rules[kPlacedGradientX + k] = {true, 0.0, sd[k]};
-  }
-}
-
 void SetRules(const ForwardModel& model, PlacedProblem& problem) {
   double dimmest = std::numeric_limits<double>::infinity();
   double shortest = std::numeric_limits<double>::infinity();
@@ -232,6 +212,25 @@ PlacedProblem PlacedProblemOf(const Observations& observations, const LightDescr
                                                 model.sheet->sd};
   }
   return out;
+}
+
+void AddGradient(const Vec3& sd, PlacedProblem& problem) {
+  Vec3 middle{};
+  int count = 0;
+  const auto seen = [](const PlacedRow& row) { return row.direct_gain > 0.0 && row.position; };
+  for (const PlacedRow& row : problem.estimation.rows) {
+    if (!seen(row) || !problem.near) continue;
+    const Vec3 way = *row.position - *problem.near;
+    middle = middle + way * (1.0 / Length(way));
+    ++count;
+  }
+  if (count > 0) middle = middle * (1.0 / count);
+  for (PlacedRow& row : problem.estimation.rows) {
+    if (seen(row)) row.middle = middle;
+  }
+  for (int k = 0; k < 3; ++k) {
+    problem.estimation.rules[kPlacedGradientX + k] = {true, 0.0, sd[k]};
+  }
 }
 
 std::vector<PlacedSolution> SolveFrom(const PlacedEstimation& estimation,

@@ -53,6 +53,10 @@ void SetWalls(const WallPrior& prior, PlacedEstimation& estimation);
                                             const ForwardModel& model,
                                             const Vec3* near_m = nullptr);
 
+// How the lamp shines more to one side than to another (sd along x, y, z), about the mean direction
+// to its readings; where problem.near is not told, from 0.
+void AddGradient(const Vec3& sd, PlacedProblem& problem);
+
 // The minima that these starts lead to, best first.
 [[nodiscard]] std::vector<PlacedSolution> SolveFrom(const PlacedEstimation& estimation,
                                                     const std::vector<PlacedTheta>& starts);

@@ -9,12 +9,11 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
 
 namespace lightcal::fit {
 namespace {
 
-constexpr double kMetresPerFoot = 0.3048;
-constexpr double kLuxPerFootCandle = 10.7639;
 // Judgement: how often people err so. What is left of 1 is any other mistake.
 constexpr double kDigitShare = 0.2, kSignShare = 0.1, kPointShare = 0.1, kFeetShare = 0.1,
                  kAxesShare = 0.1, kLuxDigitShare = 0.1, kLuxPointShare = 0.05,
@@ -115,7 +114,7 @@ std::vector<Correction> CorrectionsOf(const Observation& reading) {
   if (!reading.differenced && !reading.ambient_subtracted && reading.raw_lx > 0.0) {
     out.AddLux(kLuxDigitShare, kWaysOfDigits, ByDigits(reading.raw_lx));
     out.AddLux(kLuxPointShare, 2, {0.1 * reading.raw_lx, 10.0 * reading.raw_lx});
-    out.AddLux(kFootCandleShare, 1, {kLuxPerFootCandle * reading.raw_lx});
+    out.AddLux(kFootCandleShare, 1, {kLuxPerFootcandle * reading.raw_lx});
   }
   return out.Take();
 }

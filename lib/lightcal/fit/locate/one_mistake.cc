@@ -106,15 +106,6 @@ void AddModes(PlacedProblem problem, const std::vector<PlacedSolution>& near, do
   }
 }
 
-// A lamp that nobody called a bulb may shine as unevenly as one (uneven_light.h).
-PlacedProblem Uneven(PlacedProblem problem, const Vec3& sd) {
-  for (PlacedRow& row : problem.estimation.rows) {
-    if (row.direct_gain > 0.0 && row.position) row.middle = Vec3{};
-  }
-  for (int k = 0; k < 3; ++k) problem.estimation.rules[kPlacedGradientX + k] = {true, 0.0, sd[k]};
-  return problem;
-}
-
 // With other light and without, even and not, each from the solutions that it has.
 std::vector<PlacedMode> ModesOf(const PlacedProblem& problem,
                                 const std::vector<PlacedSolution>& near,
@@ -132,8 +123,11 @@ std::vector<PlacedMode> ModesOf(const PlacedProblem& problem,
     LightDescription bulb;
     bulb.kind = LightKind::kPoint;
     bulb.fixture = Fixture::kBulb;
+    // A lamp that nobody called a bulb may shine as unevenly as one (uneven_light.h).
     if (const auto sd = GradientOf(bulb)) {
-      AddModes(Uneven(dark, *sd), near, rest * kUneven, walls, out);
+      PlacedProblem uneven = dark;
+      AddGradient(*sd, uneven);
+      AddModes(std::move(uneven), near, rest * kUneven, walls, out);
       rest *= 1.0 - kUneven;
     }
   }

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+
+#include "lightcal/core/even_directions.h"
 
 namespace lightcal::fit {
 namespace {
@@ -129,14 +130,6 @@ ScanPoint Evaluate(const PlacedEstimation& estimation, const Vec3& lamp, double 
   return {xx - x * x / w, x / w, lamp};
 }
 
-// Evenly over the sphere: the golden spiral.
-Vec3 Direction(int i) {
-  const double z = 1.0 - (2.0 * i + 1.0) / kDirections;
-  const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0)) * i;
-  const double r = std::sqrt(1.0 - z * z);
-  return {r * std::cos(turn), r * std::sin(turn), z};
-}
-
 bool Alike(const Vec3& a, const Vec3& b, const Vec3& middle) {
   return Length(a - b) < 0.5 * std::min(Length(a - middle), Length(b - middle));
 }
@@ -205,7 +198,8 @@ std::vector<PlacedTheta> ScanPlacedStarts(PlacedEstimation estimation, double am
     const double radius =
         layout.extent * kNearestStart * std::pow(kFarthest / kNearestStart, share);
     for (int i = 0; i < kDirections; ++i) {
-      const ScanPoint point = Evaluate(estimation, layout.middle + Direction(i) * radius, ambient);
+      const ScanPoint point =
+          Evaluate(estimation, layout.middle + EvenDirection(i, kDirections) * radius, ambient);
       if (std::isfinite(point.chi_squared)) points.push_back(point);
     }
   }
@@ -230,7 +224,7 @@ std::optional<PlacedTheta> BestStartAt(PlacedEstimation estimation, double exten
   const Layout layout = LayoutOf(estimation.rows);
   ScanPoint best;
   for (int i = 0; i < kDirections; ++i) {
-    const Vec3 lamp = layout.middle + Direction(i) * (extents * layout.extent);
+    const Vec3 lamp = layout.middle + EvenDirection(i, kDirections) * (extents * layout.extent);
     const ScanPoint point = Evaluate(estimation, lamp, ambient);
     if (point.chi_squared < best.chi_squared) best = point;
   }

@@ -54,7 +54,7 @@ std::optional<double> FacingOf(ReadingRow row, const Observation& o, const Theta
   return std::abs(facing - turned) > kAlike * facing ? std::optional(facing) : std::nullopt;
 }
 
-bool SamePlace(const Observation& a, const Observation& b) {
+bool ReadAlike(const Observation& a, const Observation& b) {
   return a.distance_m == b.distance_m && a.position_m == b.position_m && a.normal == b.normal &&
          a.tilt_rad == b.tilt_rad && a.off_axis_rad == b.off_axis_rad && a.lit == b.lit &&
          a.behind_card == b.behind_card && a.instrument == b.instrument;
@@ -68,7 +68,7 @@ std::vector<const Observation*> Unrepeated(const std::vector<Observation>& rows,
   std::vector<const Observation*> there;
   bool apart = false;
   for (const Observation& other : rows) {
-    if (!SamePlace(row, other)) continue;
+    if (!ReadAlike(row, other)) continue;
     there.push_back(&other);
     apart = apart || std::abs(row.measured_lx - other.measured_lx) >
                          kSigmas * std::hypot(row.sigma_lx, other.sigma_lx);
@@ -115,8 +115,7 @@ void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
                " lx (readings " +
                Joined(there, ", ", [](const Observation* o) { return std::to_string(o->index); }) +
                "): farther apart than it repeats. The lamp was still warming up, its battery or "
-               "its "
-               "mains sank, or the head was held otherwise: let it burn ten minutes and read "
+               "its mains sank, or the head was held otherwise: let it burn ten minutes and read "
                "again"});
       continue;
     }

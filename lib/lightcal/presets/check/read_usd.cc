@@ -78,6 +78,11 @@ class Variants {
   bool other_ = false;
 };
 
+// Nothing but opinions on lights of a person's stage.
+bool AreOversAlone(const std::vector<Prim>& prims) {
+  return std::ranges::all_of(prims, [](const Prim& prim) { return prim.type.empty(); });
+}
+
 // `def Type "name"` begins a prim; what follows is its own until the next one does. `over "name"`
 // goes on with one that was there; a layer of nothing else is about prims of a person's stage.
 std::vector<Prim> PrimsOf(const std::string& text) {
@@ -104,9 +109,9 @@ std::vector<Prim> PrimsOf(const std::string& text) {
     if (line.starts_with("over ")) {
       auto it = std::ranges::find(prims, BetweenQuotes(line), &Prim::name);
       if (it == prims.end()) {
-        const bool of_a_stage =
-            std::ranges::all_of(prims, [](const Prim& prim) { return prim.type.empty(); });
-        if (!of_a_stage) throw std::runtime_error(std::string(line) + ": there is no such prim");
+        if (!AreOversAlone(prims)) {
+          throw std::runtime_error(std::string(line) + ": there is no such prim");
+        }
         it = prims.insert(it, Prim{.type = {}, .name = std::string(BetweenQuotes(line))});
       }
       current = static_cast<std::size_t>(it - prims.begin());
@@ -220,9 +225,7 @@ std::vector<EngineLight> ReadUsd(const std::string& text, const FileText& beside
   constexpr std::string_view kTypes[] = {"SphereLight", "DistantLight",  "DomeLight",
                                          "RectLight",   "CylinderLight", "DiskLight"};
   std::vector<Prim> prims = PrimsOf(text);
-  if (std::ranges::all_of(prims, [](const Prim& prim) { return prim.type.empty(); })) {
-    if (prims.size() > 1) return {};
-  }
+  if (prims.size() > 1 && AreOversAlone(prims)) return {};
   const std::string space = Unquoted(prims.front().Text("colorSpace"));
   if (prims.front().Number("metersPerUnit", 0.01) != 1.0 ||
       prims.front().Text("upAxis") != "\"Z\"") {
