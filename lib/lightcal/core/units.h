@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Strong units: one explicit wrapper per kind. Sums and scalings stay inside a kind; anything that
-// joins kinds (I = E d^2 hides a steradian) is a named, cited function in photometry, never operator
-// algebra.
+// joins kinds (I = E d^2 hides a steradian) is a named, cited function in photometry, never
+// operator algebra.
 #pragma once
 
 #include <compare>
@@ -34,15 +34,15 @@ class Quantity {
   double value_ = 0.0;
 };
 
-using Lux = Quantity<struct LuxKind>;                    // illuminance, lm/m^2
-using Candela = Quantity<struct CandelaKind>;            // luminous intensity, lm/sr
-using Lumens = Quantity<struct LumensKind>;              // luminous flux
-using Nits = Quantity<struct NitsKind>;                  // luminance, cd/m^2
+using Lux = Quantity<struct LuxKind>;                        // illuminance, lm/m^2
+using Candela = Quantity<struct CandelaKind>;                // luminous intensity, lm/sr
+using Lumens = Quantity<struct LumensKind>;                  // luminous flux
+using Nits = Quantity<struct NitsKind>;                      // luminance, cd/m^2
 using LumensPerSquareMetre = Quantity<struct ExitanceKind>;  // luminous exitance
 using LumensPerWatt = Quantity<struct EfficacyKind>;
-using Watts = Quantity<struct WattsKind>;                // radiant flux or electrical power
+using Watts = Quantity<struct WattsKind>;  // radiant flux or electrical power
 using Kelvin = Quantity<struct KelvinKind>;
-using Mireds = Quantity<struct MiredsKind>;              // 1e6 / K
+using Mireds = Quantity<struct MiredsKind>;  // 1e6 / K
 using Metres = Quantity<struct MetresKind>;
 using SquareMetres = Quantity<struct SquareMetresKind>;
 using Nanometres = Quantity<struct NanometresKind>;
@@ -50,8 +50,10 @@ using Radians = Quantity<struct RadiansKind>;
 using Steradians = Quantity<struct SteradiansKind>;
 using Seconds = Quantity<struct SecondsKind>;
 
+inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
 [[nodiscard]] constexpr Radians RadiansFromDegrees(double degrees) {
-  return Radians(degrees * (std::numbers::pi / 180.0));
+  return Radians(degrees * kRadiansPerDegree);
 }
 [[nodiscard]] constexpr double DegreesFromRadians(Radians angle) {
   return angle.value() * (180.0 / std::numbers::pi);

@@ -10,6 +10,8 @@
 #include "lightcal/records/field_reader.h"
 #include "lightcal/records/field_writer.h"
 #include "lightcal/records/json_codec.h"
+#include "lightcal/records/light_fields.h"
+#include "lightcal/records/preset_lights.h"
 #include "lightcal/records/provenance_fields.h"
 #include "lightcal/records/spectral_fields.h"
 #include "lightcal/records/uncertain_fields.h"
@@ -199,46 +201,6 @@ void VisitRoom(FieldWriter& writer, const std::vector<LampInRoom>& in_room) {
   if (!in_room.empty()) writer.List("in_room", in_room, kVisitInRoom);
 }
 
-template <class Archive, class SomeLight>
-void VisitMeasures(Archive& archive, SomeLight& light) {
-  archive.Object("intensity_cd", light.intensity_cd, kVisitAmount);
-  archive.Object("flux_lm", light.flux_lm, kVisitAmount);
-  archive.Object("illuminance_lx", light.illuminance_lx, kVisitAmount);
-  archive.Object("luminance_nits", light.luminance_nits, kVisitAmount);
-  archive.Object("distance_offset_m", light.distance_offset_m, kVisitUncertain);
-  archive.Object("ambient_lx", light.ambient_lx, kVisitUncertain);
-}
-
-template <class Archive, class SomeLight>
-void VisitSizes(Archive& archive, SomeLight& light) {
-  archive.Number("diameter_m", light.diameter_m, kNotNegative);
-  archive.Number("width_m", light.width_m, kNotNegative);
-  archive.Number("height_m", light.height_m, kNotNegative);
-  archive.Number("length_m", light.length_m, kNotNegative);
-  archive.Number("radius_m", light.radius_m, kNotNegative);
-}
-
-template <class SomeLight>
-void CheckCone(FieldReader& reader, const SomeLight& light) {
-  constexpr double kRounding_deg = 1e-9;
-  if (!light.inner_deg || !light.outer_deg) return;
-  if (*light.inner_deg <= *light.outer_deg + kRounding_deg) return;
-  reader.Fail("inner_deg", "inner_deg exceeds outer_deg; both are half angles: swap them");
-}
-template <class SomeLight>
-void CheckCone(FieldWriter& /*writer*/, const SomeLight& /*light*/) {}
-
-template <class Archive, class SomeLight>
-void VisitCone(Archive& archive, SomeLight& light) {
-  archive.Group("cone", [&](auto& cone) {
-    cone.Number("inner_deg", light.inner_deg, kHalfAngleRule);
-    cone.Number("outer_deg", light.outer_deg, kHalfAngleRule);
-    cone.Number("inner_u95_deg", light.inner_u95_deg, kNotNegative);
-    cone.Number("outer_u95_deg", light.outer_u95_deg, kNotNegative);
-    CheckCone(cone, light);
-  });
-}
-
 constexpr auto kVisitStateGeometry = [](auto& archive, auto& one) {
   archive.Controls("state", one.state);
   archive.Word("kind", one.kind, kLightKindNames);
@@ -258,28 +220,6 @@ void VisitGeometries(FieldReader& reader, std::vector<StateGeometry>& geometries
 }
 void VisitGeometries(FieldWriter& writer, const std::vector<StateGeometry>& geometries) {
   if (!geometries.empty()) writer.List("geometries", geometries, kVisitStateGeometry);
-}
-
-// A number at a time is no rule for these.
-void CheckDirections(FieldReader& reader, const FittedLight& light) {
-  for (const auto& [key, way] : {std::pair("aim", light.aim), std::pair("axis", light.axis)}) {
-    if (!way || Length(*way) > 0.0) continue;
-    reader.Fail(key, std::string(key) + " = [0, 0, 0] is no direction");
-  }
-}
-void CheckDirections(FieldWriter& /*writer*/, const FittedLight& /*light*/) {}
-
-template <class Archive, class SomeLight>
-void VisitGeometry(Archive& archive, SomeLight& light) {
-  VisitCone(archive, light);
-  VisitSizes(archive, light);
-  archive.Number("angular_diameter_deg", light.angular_diameter_deg, kNotNegative);
-  archive.Array("position_m", light.position_m);
-  archive.Array("position_u95_m", light.position_u95_m, kNotNegative);
-  archive.Array("aim", light.aim);
-  archive.Array("axis", light.axis);
-  archive.Number("aim_u95_deg", light.aim_u95_deg, kNotNegative);
-  CheckDirections(archive, light);
 }
 
 template <class Archive, class SomeLight>
@@ -320,50 +260,6 @@ void VisitFile(Archive& archive, SomeFile& file) {
   archive.List("lights", file.lights, kVisitLight);
   VisitProvenance(archive, file.provenance);
   archive.Require({"lights"});
-}
-
-// A light of a lightcal.preset/1, which holds much besides.
-constexpr auto kReadPresetLight = [](FieldReader& reader, FittedLight& light) {
-  reader.Text("name", light.name);
-  reader.Word("kind", light.kind, kLightKindNames);
-  reader.Group("photometry", [&](FieldReader& group) {
-    VisitMeasures(group, light);
-    group.IgnoreRest();
-  });
-  reader.Group("color", [&](FieldReader& group) {
-    group.Object("cct_K", light.color.cct_K, kVisitKelvin);
-    group.Object("duv", light.color.duv, kVisitUncertain);
-    group.Chromaticity("xy", light.color.xy);
-    group.IgnoreRest();
-  });
-  reader.Group("geometry", [&](FieldReader& group) {
-    group.Array("position_m", light.position_m);
-    group.Array("aim", light.aim);
-    group.Array("axis", light.axis);
-    group.Number("inner_deg", light.inner_deg, kHalfAngleRule);
-    group.Number("outer_deg", light.outer_deg, kHalfAngleRule);
-    VisitSizes(group, light);
-    CheckDirections(group, light);
-    CheckCone(group, light);
-    group.IgnoreRest();
-  });
-  reader.Require({"name", "kind", "photometry", "color", "geometry"});
-  reader.IgnoreRest();
-};
-
-Result<LightFile> LightsOfPreset(const Node& root, std::string_view where) {
-  ReadingOfFile reading{std::string(where), "bad_preset", PlaceStyle::kJson, std::nullopt};
-  FieldReader reader(root, "", reading);
-  LightFile file;
-  reader.List("lights", file.lights, kReadPresetLight);
-  VisitProvenance(reader, file.provenance);
-  reader.Require({"lights"});
-  reader.IgnoreRest();
-  reader.Finish();
-  if (!reading.error) return file;
-  reading.error->message = "is not as lightcal writes it: " + reading.error->message +
-                           "; export it again with {preset.target} json";
-  return tl::unexpected(*std::move(reading.error));
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
+#include "lightcal/core/units.h"
 #include "lightcal/fit/beam/spot_beam.h"
 #include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/model/row_values.h"
@@ -15,12 +15,11 @@
 namespace lightcal::fit {
 namespace {
 
-constexpr double kRadiansADegree = std::numbers::pi / 180.0;
 constexpr double kDarkOfPeak = 2e-4;     // what a meter still sees in the dark, of the beam's peak
 constexpr double kOffAxisScatter = 0.5;  // of ln of the walls' light, in and around a beam
 constexpr double kPlaceSigma_m = 0.01;   // 1 sigma of where a meter stood
 constexpr double kAnyAim = 0.4;          // 1 sigma of the tilts of an aim that nobody stated
-constexpr double kEvenSpan = 45.0 * kRadiansADegree;  // over which an even lamp has to be seen
+constexpr double kEvenSpan = 45.0 * kRadiansPerDegree;  // over which an even lamp has to be seen
 
 // Whether it may shine alike in all directions: by places; by angles where it was read over a span
 // of them, or is said to be a bulb.
@@ -145,7 +144,7 @@ BeamRows RowsOfBeam(const Observations& observations, const LightDescription& li
             out.readings.rows[i]);
   }
   if (out.placed) {
-    const double sd = light.aim ? std::tan(kAimSigmaDegrees * kRadiansADegree) : kAnyAim;
+    const double sd = light.aim ? std::tan(kAimSigmaDegrees * kRadiansPerDegree) : kAnyAim;
     out.readings.aim = {ParameterRule{true, 0.0, sd}, ParameterRule{true, 0.0, sd}};
   } else if (const double sd = std::tan(AngleSigma(light).value()); sd > 0.0 && (left || right)) {
     out.readings.aim[0] = {true, 0.0, sd};
