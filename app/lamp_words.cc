@@ -104,7 +104,9 @@ std::string BareStops(double stops) {
 
 bool HasColor(const EngineFigure& figure) {
   const auto at = std::min(figure.note.find("color "), figure.note.find("Color "));
-  return at != std::string::npos && !figure.note.substr(at + 6).starts_with("1, 1, 1 ");
+  if (at == std::string::npos) return false;
+  const std::string color = figure.note.substr(at + 6);
+  return !color.starts_with("1, 1, 1 ") && !color.starts_with("255, 255, 255 ");
 }
 
 // "Blender 1.61 W · Unity, glTF 87 cd + colour"

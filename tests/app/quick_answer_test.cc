@@ -84,6 +84,14 @@ TEST_P(OneLamp, IsAnsweredInTwelveLinesWithoutTheLaboratorysWords) {
   EXPECT_NEAR(StopsSaid(out), StopsOf(document["lights"][0]["intensity_cd"]), 0.051) << out;
 }
 
+// White is no colour to set, in 8 bits of an engine neither.
+TEST(Quick, ALampOfUnknownColourHasNoneToType) {
+  const std::string out = Said({"quick", "192lx@0.5m", "--verbose"});
+  EXPECT_THAT(out, Not(HasSubstr("+ colour"))) << out;
+  EXPECT_THAT(out, Not(HasSubstr("255, 255, 255"))) << out;
+  EXPECT_THAT(out, HasSubstr("Unreal, Unity, glTF ")) << out;
+}
+
 INSTANTIATE_TEST_SUITE_P(Quick, OneLamp,
                          ::testing::Values(Typed{"OneReading", {"192lx@0.5m"}, "lamp, in a room"},
                                            Typed{"TwoReadings",
