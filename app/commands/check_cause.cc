@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include "lightcal/calibrate/wall_part.h"
 #include "lightcal/core/joined.h"
@@ -50,6 +51,23 @@ std::string Substitutes(Warnings substituted, const std::vector<ComparedReading>
   return Joined(substituted, "; ", [](const Warning& w) { return w.subject + " is " + w.message; });
 }
 
+struct AskedForm {
+  std::string_view word;  // as export takes it
+  std::string held;       // what it makes of the lamps that stray
+};
+
+// The form of its spots that somebody asked for, where the file is what export makes of it.
+std::optional<AskedForm> FormOf(const std::vector<ComparedReading>& rows,
+                                const PresetTarget& target, const CalibratedSession& calibrated,
+                                double max_error) {
+  for (const auto& [word, form] : {std::pair("cone", SpotForm::kCone), {"ies", SpotForm::kIes}}) {
+    const auto fresh = FreshPresetOf(target, calibrated.lights, form);
+    if (!fresh || !AreAlike(rows, ComparedWith(calibrated, fresh->lights))) continue;
+    return AskedForm{word, Substitutes(fresh->substituted, rows, max_error)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<ComparedReading> ComparedWith(const CalibratedSession& calibrated,
@@ -68,7 +86,15 @@ std::string CauseOfStraying(std::string_view preset, const CalibratedSession& ca
   if (!fresh) return again;
   const auto fresh_rows = ComparedWith(calibrated, fresh->lights);
   const std::optional<double> left = RmsOf(fresh_rows);
-  const bool strays = left && *left > max_error;
+  if (!left) return again;
+  const bool strays = *left > max_error;
+  if (!AreAlike(rows, fresh_rows)) {
+    if (const auto form = FormOf(rows, *target, calibrated, max_error)) {
+      return "The file is as exported with --spots " + std::string(form->word) +
+             ", nothing in it was edited" + (form->held.empty() ? "" : ": " + form->held) +
+             ". Exported without it, it is " + PercentText(*left) + " off";
+    }
+  }
   if (!strays) return again;
   const std::string title(target->title);
   const std::string held = Substitutes(fresh->substituted, fresh_rows, max_error);

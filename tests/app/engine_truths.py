@@ -30,6 +30,25 @@ AP1 = ((1.6410233797, -0.3248032942, -0.2364246952), (-0.6636628587, 1.615331591
 D65 = [0.3127, 0.3290]
 COLORS = {"day": D65, "warm": [0.4500, 0.4080], "mint": [0.3000, 0.4500], "lilac": [0.2900, 0.2200]}
 
+# cos^20: .366 of the axis at 18 degrees, where no cone of three.js that is right on the axis is.
+BEAM = """lightcal = 1
+[room]
+dark = true
+[[light]]
+name = "beam"
+kind = "spot"
+beam_deg = 30
+[[meter]]
+name = "m"
+sigma_relative = 0.02
+""" + "".join(f"""[[reading]]
+light = "beam"
+meter = "m"
+distance_m = {d}
+off_axis_deg = {a}
+illuminance_lx = {900 * math.cos(math.radians(a)) ** 20 / d ** 2}
+""" for d, a in ((1, 0), (2, 0), (2, 18)))
+
 
 def times(m, v):
     return [sum(a * b for a, b in zip(row, v)) for row in m]
@@ -217,6 +236,17 @@ class EngineTruths(unittest.TestCase):
         file.write_text(re.sub(r'("intensity": )([\d.]+)', lambda m: f"{m[1]}{2 * float(m[2])}",
                                file.read_text()))
         self.assertIn("undo what was edited", call("check", str(file), "--session", self.kinds).stderr)
+
+    def test_check_tells_a_cone_that_was_asked_for_from_an_edit(self):
+        session, light, out = self.at / "beam.toml", self.at / "beam.json", self.at / "cone"
+        session.write_text(BEAM)
+        answer("fit", str(session), "-o", str(light))
+        answer("export", str(light), "--to", "three", "--spots", "cone", "-o", str(out))
+        done = call("check", str(out / "beam.three.js"), "--session", str(session))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("as exported with --spots cone, nothing in it was edited", done.stderr)
+        self.assertRegex(done.stderr, r"Exported without it, it is [\d.]+ % off")
+        self.assertNotIn("undo", done.stderr)
 
     # ---- files ----
 

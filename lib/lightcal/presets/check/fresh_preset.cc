@@ -9,10 +9,12 @@
 
 namespace lightcal {
 
-std::optional<FreshPreset> FreshPresetOf(const PresetTarget& target, const LightFile& lights) {
+std::optional<FreshPreset> FreshPresetOf(const PresetTarget& target, const LightFile& lights,
+                                         SpotForm spots) {
   if (target.reader == nullptr || target.place_in_report == 0) return std::nullopt;
   PresetOptions options;
   options.figures_only = true;
+  options.spots = spots;
   auto preset = target.exporter(lights, "fresh", options);
   if (!preset) return std::nullopt;
   const auto named = [&](std::string_view name) {

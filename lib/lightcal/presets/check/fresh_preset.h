@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lightcal/presets/check/engine_light.h"
+#include "lightcal/presets/preset.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/fitted_light.h"
 
@@ -19,6 +20,7 @@ struct FreshPreset {
 
 // Absent: nobody reads that engine's file, or it takes none of these lights.
 [[nodiscard]] std::optional<FreshPreset> FreshPresetOf(const PresetTarget& target,
-                                                       const LightFile& lights);
+                                                       const LightFile& lights,
+                                                       SpotForm spots = SpotForm::kAuto);
 
 }  // namespace lightcal
