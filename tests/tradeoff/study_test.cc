@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 #include <stdexcept>
 
@@ -263,6 +264,37 @@ TEST(Study, OnlyTheKnobsAskedForMove) {
   const auto wrong = StudyTradeoff(RunnerOf(session), question, {});
   ASSERT_FALSE(wrong);
   EXPECT_NE(wrong.error().message.find("pixels"), std::string::npos);
+}
+
+// The steps of spectra that no reading has: no answer changes, nor a stage of .5 % of the time.
+TEST(Study, WhatCannotMatterIsRunOnce) {
+  Invented session;
+  std::map<double, int> runs_by_step;
+  int of_quarter_pixels = 0;
+  const Runner run = [&](const AccuracyProfile& p) -> Result<Outcome> {
+    ++runs_by_step[p.spectral_step_nm];
+    of_quarter_pixels += p.pictures.pixel_stride == 4 ? 1 : 0;
+    return session(p);
+  };
+  Question question;
+  question.knobs = {"pixels", "spectral_step"};
+  const auto study = StudyTradeoff(run, question, {});
+  ASSERT_TRUE(study);
+  EXPECT_GE(of_quarter_pixels, question.alone.least_runs);
+  const double usual = study->usual.measured.profile.spectral_step_nm;
+  int steps = 0;
+  for (const auto& [step_nm, runs] : runs_by_step) {
+    if (step_nm == usual) continue;
+    EXPECT_EQ(runs, 1) << step_nm;
+    ++steps;
+  }
+  EXPECT_GE(steps, 2);
+  for (const SweepRow& row : study->rows) {
+    if (Knobs()[row.knob].name != "spectral_step") continue;
+    EXPECT_FALSE(row.in_play);
+    EXPECT_EQ(row.saves_s, 0.0);
+    EXPECT_GT(row.setting.measured.times.total, 0.0);
+  }
 }
 
 TEST(Study, StopsWhenAsked) {

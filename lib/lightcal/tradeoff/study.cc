@@ -131,16 +131,31 @@ double SavedSeconds(const Study& study, const SweepRow& row) {
   return apart ? saved : 0.0;
 }
 
+bool Moves(const std::vector<LightFigures>& usual, const std::vector<LightFigures>& own) {
+  const SettingError moved = ErrorOf(DifferencesFrom(usual, own));
+  return moved.relative > kSeenError || moved.over_u > kSeenShareOfU;
+}
+
+// Neither an answer nor, in a stage of hardly any time with and without, the time: more runs of it
+// would show no more.
+bool ChangesNothing(Stage stage, const Outcome& usual, const Outcome& own) {
+  const auto is_hardly_any = [stage](const StageSeconds& seconds) {
+    const double whole = std::accumulate(seconds.begin(), seconds.end(), 0.0);
+    return seconds[static_cast<std::size_t>(stage)] <= kSeenTime * whole;
+  };
+  return is_hardly_any(usual.seconds) && is_hardly_any(own.seconds) &&
+         !Moves(usual.lights, own.lights);
+}
+
 void FillRow(const Study& study, SweepRow& row) {
   Judge(study, row.setting);
   if (row.setting.measured.refused) {
     row.in_play = true;
     return;
   }
-  const SettingError moved =
-      ErrorOf(DifferencesFrom(study.usual.measured.lights, row.setting.measured.lights));
   row.saves_s = SavedSeconds(study, row);
-  row.in_play = row.saves_s != 0.0 || moved.relative > kSeenError || moved.over_u > kSeenShareOfU;
+  row.in_play =
+      row.saves_s != 0.0 || Moves(study.usual.measured.lights, row.setting.measured.lights);
   const double usual = study.usual.measured.times.total;
   row.times_faster = usual / (usual - row.saves_s);
 }
@@ -256,7 +271,10 @@ Result<Study> StudyTradeoff(const Runner& run, const Question& question, const W
       study.rows.push_back(std::move(row));
     }
   }
-  auto measured = MeasureInTurn(run, profiles, question.alone, watch);
+  const auto settled = [&](std::size_t i, const Outcome& usual, const Outcome& own) {
+    return ChangesNothing(Knobs()[study.rows[i - 1].knob].stage, usual, own);
+  };
+  auto measured = MeasureInTurn(run, profiles, question.alone, watch, settled);
   if (!measured) return Propagate(std::move(measured));
   study.usual.measured = std::move(measured->front());
   Judge(study, study.usual);

@@ -69,9 +69,12 @@ bool Differ(const Spread& a, const Spread& b) {
 
 Result<std::vector<Measured>> MeasureInTurn(const Runner& run,
                                             std::span<const AccuracyProfile> profiles,
-                                            const TimingRules& rules, const Watch& watch) {
+                                            const TimingRules& rules, const Watch& watch,
+                                            const Settled& settled) {
   std::vector<Measured> out(profiles.size());
   std::vector<Series> series(profiles.size());
+  std::vector<bool> done(profiles.size(), false);
+  Outcome first;
   const Clock::time_point start = Clock::now();
   for (int round = 0; round < rules.most_runs; ++round) {
     const double by_time = SecondsSince(start) / rules.seconds;
@@ -80,21 +83,28 @@ Result<std::vector<Measured>> MeasureInTurn(const Runner& run,
     if (round >= kFewestRuns && by_time >= kPatience) break;
     for (std::size_t i = 0; i < profiles.size(); ++i) {
       if (watch.stopped()) return Failed("interrupted", "tradeoff", "stopped; nothing was written");
-      if (out[i].refused) continue;
+      if (out[i].refused || done[i]) continue;
       auto outcome = run(profiles[i]);
-      if (round == 0) {
+      if (round == 0) {  // the first run of each warms caches
         out[i].profile = profiles[i];
         // The first profile is what the others are measured against.
         if (!outcome && i == 0) return Propagate(std::move(outcome));
-        if (!outcome) out[i].refused = outcome.error();
-        if (outcome) out[i].lights = std::move(outcome->lights);
-        continue;  // the first run of each warms caches
+        if (i == 0) first = *outcome;
+        if (!outcome) {
+          out[i].refused = outcome.error();
+          continue;
+        }
+        done[i] = i > 0 && settled && settled(i, first, *outcome);
+        out[i].lights = std::move(outcome->lights);
+        continue;
       }
       if (outcome) series[i].Add(outcome->seconds);
     }
     watch.progress(std::min({1.0, by_runs, std::max(by_time, by_runs / 2.0)}));
   }
-  for (std::size_t i = 0; i < out.size(); ++i) out[i].times = series[i].Summary();
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].times = done[i] ? out[0].times : series[i].Summary();
+  }
   watch.progress(1.0);
   return out;
 }

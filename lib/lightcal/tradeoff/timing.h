@@ -2,6 +2,7 @@
 // How long calibrations by several profiles take, measured side by side, in processor time.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
@@ -37,12 +38,17 @@ struct Measured {
   RunTimes times;
 };
 
+// Whether profile i need not be run again, by the first runs of the first profile and of its own.
+using Settled = std::function<bool(std::size_t i, const Outcome& first, const Outcome& own)>;
+
 // Runs the profiles in turn, A B C A B C ..., so that what else the machine does meets them alike.
+// One that is settled has the first profile's times.
 // Fails: interrupted, and as the first profile where that gives no answer.
 [[nodiscard]] Result<std::vector<Measured>> MeasureInTurn(const Runner& run,
                                                           std::span<const AccuracyProfile> profiles,
                                                           const TimingRules& rules,
-                                                          const Watch& watch);
+                                                          const Watch& watch,
+                                                          const Settled& settled = {});
 
 // Whether the quartiles of two profiles' runs overlap.
 [[nodiscard]] bool TimesOverlap(const RunTimes& a, const RunTimes& b);
