@@ -10,12 +10,11 @@
 
 #include "lightcal/imaging/bracket/code_pairs.h"
 #include "lightcal/imaging/bracket/exposure_ratios.h"
+#include "lightcal/imaging/bracket/label_choices.h"
 
 namespace lightcal {
 namespace {
 
-constexpr double kOddSd = std::numbers::ln2;  // of a label that is odd: a stop
-constexpr double kOddShare = 0.01;            // of all labels
 // Labels stand unless neighbours differ under them by this share of ln(ratio), and by so many times
 // more than under the exposures measured. Source: discs before a plain ground, patches, cloudy
 // scenes and a room through sRGB, a power and two films, as PNG and JPEG 80: at most 2.2 times with
@@ -128,37 +127,10 @@ double MisfitOf(const Channels& channels, const CodeSteps& steps,
   return all > 0.0 ? sum / all : 0.0;
 }
 
-// A choice of odd labels: what the others ask for, ln(exposure) found = constant + (1 + factor) of
-// the label's, and the logarithm of how probable all labels are then.
-struct Choice {
-  std::vector<Eigen::Index> odd;
-  double constant = 0.0, factor = 0.0, ln_probability = 0.0;
-};
-
-Choice ChoiceOf(const Eigen::VectorXd& x, const Eigen::VectorXd& d, std::vector<Eigen::Index> odd) {
-  Eigen::VectorXd sd = Eigen::VectorXd::Constant(x.size(), kLabelSd);
-  for (const Eigen::Index i : odd) sd(i) = kOddSd;
-  Eigen::MatrixXd rows(x.size(), 2);
-  rows.col(0) = sd.cwiseInverse();
-  rows.col(1) = x.cwiseQuotient(sd);
-  const Eigen::VectorXd whitened = d.cwiseQuotient(sd);
-  const Eigen::Matrix2d normal = rows.transpose() * rows;
-  const Eigen::Vector2d answer = normal.inverse() * (rows.transpose() * whitened);
-  const double ln_odd = static_cast<double>(odd.size()) * std::log(kOddShare);
-  return {std::move(odd), answer(0), answer(1),
-          ln_odd - sd.array().log().sum() - 0.5 * (whitened - rows * answer).squaredNorm()};
-}
-
-std::vector<Choice> ChoicesOf(const Eigen::VectorXd& x, const Eigen::VectorXd& d) {
-  constexpr Eigen::Index kFramesForTwo = 5;  // three others agree
-  std::vector<Choice> choices = {ChoiceOf(x, d, {})};
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    choices.push_back(ChoiceOf(x, d, std::vector{i}));
-    for (Eigen::Index j = i + 1; j < x.size() && x.size() >= kFramesForTwo; ++j) {
-      choices.push_back(ChoiceOf(x, d, std::vector{i, j}));
-    }
-  }
-  return choices;
+// What labels alone leave open about a curve's power.
+double PowerOfLabels(std::span<const double> ln_label) {
+  const double apart = ln_label.empty() ? 0.0 : ln_label.back() - ln_label.front();
+  return apart == 0.0 ? 0.0 : std::numbers::sqrt2 * kLabelSd / std::abs(apart);
 }
 
 }  // namespace
@@ -168,7 +140,10 @@ CodeExposures MeasureCodeExposures(std::span<const std::vector<CodePair>> channe
   CodeExposures answer;
   for (const double l : label) answer.ln_exposure.push_back(std::log(l));
   answer.off.assign(label.size(), 0.0);
-  if (label.size() < 3) return answer;
+  if (label.size() < 3) {
+    answer.power_sd = PowerOfLabels(answer.ln_exposure);
+    return answer;
+  }
   Channels shared(channels.begin(), channels.end());
   const Frames joined = KeepShared(shared, label.size());
   if (joined.size() < 3) return answer;
@@ -182,10 +157,11 @@ CodeExposures MeasureCodeExposures(std::span<const std::vector<CodePair>> channe
   const double misfit = MisfitOf(shared, steps, answer.ln_exposure);
   const double least = MisfitOf(shared, steps, {measured.data(), label.size()});
   if (!(misfit > std::max(kLeastMisfit, kContradicts * least))) return answer;
-  const std::vector<Choice> choices = ChoicesOf(x, d);
-  const Choice best = *std::ranges::max_element(choices, {}, &Choice::ln_probability);
+  const std::vector<LabelChoice> choices =
+      LabelChoices({x.data(), joined.size()}, {d.data(), joined.size()});
+  const LabelChoice best = *std::ranges::max_element(choices, {}, &LabelChoice::ln_probability);
   double all = 0.0, square = 0.0;
-  for (const Choice& choice : choices) {
+  for (const LabelChoice& choice : choices) {
     const double probability = std::exp(choice.ln_probability - best.ln_probability);
     all += probability;
     square += probability * (choice.factor - best.factor) * (choice.factor - best.factor);
@@ -196,7 +172,7 @@ CodeExposures MeasureCodeExposures(std::span<const std::vector<CodePair>> channe
     const double off = (x(at) + d(at) - best.constant) / (1.0 + best.factor) - x(at);
     answer.off[frame] = off;
     answer.ln_exposure[frame] += off;
-    if (std::ranges::find(best.odd, at) != best.odd.end()) continue;
+    if (std::ranges::find(best.odd, static_cast<std::size_t>(at)) != best.odd.end()) continue;
     scatter += off * off;
     spread += x(at) * x(at);
     kept += 1.0;

@@ -15,7 +15,8 @@ struct CodeExposures {
   std::vector<double> ln_exposure;  // of each frame, in the labels' unit
   std::vector<double> off;          // of them from the labels' logarithms
   // Of the common factor of all ln ratios, and so of the curve's power (1 sigma): by how much the
-  // labels scatter, and where it is not certain which of them is odd. 0 where they agree.
+  // labels scatter, and where it is not certain which of them is odd. 0 where they agree; of two
+  // frames, which tell nothing of their ratio, by kLabelSd of each.
   double power_sd = 0.0;
 };
 

@@ -15,6 +15,8 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/parallel.h"
 #include "lightcal/core/statistics.h"
+#include "lightcal/imaging/bracket/encoded_errors.h"
+#include "lightcal/imaging/bracket/label_choices.h"
 #include "lightcal/imaging/bracket/noise.h"
 
 namespace lightcal {
@@ -192,14 +194,14 @@ std::vector<PairRatio> MeasurePairs(const SampledSignals& signals,
   return pairs;
 }
 
-// Ratios once more, up to where the sensor is straight.
-void SumUp(std::span<PairRatio> pairs, double linear_to) {
+// Ratios once more, up to where the sensor is straight; `model_sd` of what no residual shows.
+void SumUp(std::span<PairRatio> pairs, double linear_to, double model_sd) {
   for (PairRatio& pair : pairs) {
     const double to = std::min(kBelievedTo, linear_to);
     const auto total = TellingLevels(pair.sums, to);
     const LevelSums sum = total ? *total : SumLevels(pair.sums, 0.002, kBelievedTo);
     pair.ln_ratio = std::log(sum.b / sum.a);
-    pair.sd = std::hypot(std::sqrt(sum.d2) / sum.b, kModelSd);
+    pair.sd = std::hypot(std::sqrt(sum.d2) / sum.b, model_sd);
   }
 }
 
@@ -278,6 +280,29 @@ Result<void> CompareWithLabels(std::span<const double> label, std::span<const st
   return {};
 }
 
+// As CompareWithLabels, where a curve stands between codes and light.
+Result<void> WeighCurve(std::span<const double> label, std::span<const std::string> names,
+                        const CurvePower& curve, ExposureRatios& answer) {
+  std::vector<double> ln_label;
+  for (const double l : label) ln_label.push_back(std::log(l));
+  const WeighedLabels weighed = WeighLabels(ln_label, answer.ln_exposure, answer.measured, curve);
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    answer.ln_exposure[i] = ln_label[i] + weighed.off[i];
+    if (!weighed.certain) continue;
+    auto named = NameOddLabel(weighed.off[i], names[i], answer.warnings);
+    if (!named) return named;
+  }
+  answer.gauge_sd = weighed.gauge_sd;
+  answer.power_sd = weighed.power_sd;
+  if (weighed.certain) return {};
+  answer.warnings.push_back(
+      {"labels_disagree", names.front(),
+       "under the stated response the frames were not exposed as their tags or {merge.exposures} "
+       "say, and which exposure is wrong, or whether the response is another camera's, they do not "
+       "tell: sigma holds each of these; take three frames and more, or check the exposures"});
+  return {};
+}
+
 }  // namespace
 
 Result<void> NameOddLabel(double off, const std::string& name, Warnings& warnings) {
@@ -299,7 +324,8 @@ Result<void> NameOddLabel(double off, const std::string& name, Warnings& warning
 
 Result<ExposureRatios> MeasureExposureRatios(const SampledSignals& signals,
                                              std::span<const double> label,
-                                             std::span<const std::string> names) {
+                                             std::span<const std::string> names,
+                                             const std::optional<CurvePower>& curve) {
   const std::size_t n = label.size();
   ExposureRatios answer;
   answer.ln_exposure.assign(n, 0.0);
@@ -310,12 +336,14 @@ Result<ExposureRatios> MeasureExposureRatios(const SampledSignals& signals,
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t i, std::size_t j) { return label[i] < label[j]; });
   std::vector<PairRatio> pairs = MeasurePairs(signals, order);
-  answer.linear_to = LinearTo(pairs);
-  SumUp(pairs, answer.linear_to);
+  if (!curve) answer.linear_to = LinearTo(pairs);
+  SumUp(pairs, answer.linear_to, curve ? std::numbers::sqrt2 * kLeastStatedMisfit : kModelSd);
   for (const PairRatio& pair : pairs) answer.measured[pair.a] = answer.measured[pair.b] = true;
   AddLabelPairs(order, label, pairs);
   SolveNetwork(pairs, answer);
-  if (auto compared = CompareWithLabels(label, names, answer); !compared) {
+  auto compared =
+      curve ? WeighCurve(label, names, *curve, answer) : CompareWithLabels(label, names, answer);
+  if (!compared) {
     return Propagate(std::move(compared));
   }
   for (std::size_t i = 0; i < n; ++i) {

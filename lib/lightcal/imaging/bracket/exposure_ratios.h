@@ -3,11 +3,13 @@
 // rounded thirds of a stop (1/60 for 1/64 s) and repeat to a few per cent.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/imaging/bracket/label_choices.h"
 #include "lightcal/imaging/bracket/sampled.h"
 
 namespace lightcal {
@@ -23,7 +25,8 @@ struct ExposureRatios {
   std::vector<bool> measured;  // false: nothing seen by this frame and another; the label stands
   // Share of the clip up to which frames agree: below 0.9 where the sensor bends earlier.
   double linear_to = 0.9;
-  Warnings warnings;  // ratio_from_label, exposure_off
+  double gauge_sd = 0.0, power_sd = 0.0;  // as WeighLabels has them; 0 without a curve
+  Warnings warnings;                      // ratio_from_label, exposure_off, labels_disagree
 };
 
 // One number a frame, from all pairs with a common range. A pair's ratio is sum b / sum a over
@@ -32,11 +35,13 @@ struct ExposureRatios {
 // the bulk (motion) are left out. `label` are exposures from tags (time ISO / N^2, any unit), > 0,
 // in the order of `signals`; names stand in messages.
 //   accuracy: 0.05 % on 1e5 shared samples with labels wrong by up to 2 EV
+// `curve`: through which codes were read. It is wrong by kLeastStatedMisfit, so that labels are
+// weighed beside what is measured through it (label_choices.h).
 // Refused: exposures_disagree (measured and label differ by more than 1 EV: frames shuffled, or
 // exposures typed in another order than the files).
-[[nodiscard]] Result<ExposureRatios> MeasureExposureRatios(const SampledSignals& signals,
-                                                           std::span<const double> label,
-                                                           std::span<const std::string> names);
+[[nodiscard]] Result<ExposureRatios> MeasureExposureRatios(
+    const SampledSignals& signals, std::span<const double> label,
+    std::span<const std::string> names, const std::optional<CurvePower>& curve = {});
 
 // Of a measured exposure, whose ln is off by `off` from its label's. Refused: exposures_disagree,
 // by more than 1 EV. Warns: exposure_off, by more than .25 EV.

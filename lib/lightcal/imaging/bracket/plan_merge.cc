@@ -232,11 +232,14 @@ Result<ExposureRatios> RatiosOf(const SampledSignals& signals, const MergeReques
     for (const double l : label) ratios.ln_exposure.push_back(std::log(l));
     ratios.sd_ln.assign(label.size(), frames.size() == 1 ? 0.0 : kLabelSd);
     ratios.measured.assign(label.size(), false);
+    ratios.power_sd = request.power_sd;
     return ratios;
   }
   std::vector<std::string> names;
   for (const SignalFrame& frame : frames) names.push_back(frame.name);
-  return MeasureExposureRatios(signals, label, names);
+  const bool stated = frames.front().response != nullptr;
+  return MeasureExposureRatios(signals, label, names,
+                               stated ? std::optional(CurvePower{}) : std::nullopt);
 }
 
 // Pixels that another frame and the labels foretell to be well exposed here, and those that are.
@@ -332,13 +335,15 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
         std::exp(ratios->ln_exposure[i] - ratios->ln_exposure[order.front()]));
   }
   const auto joined = std::count(planned.measured.begin(), planned.measured.end(), true);
-  planned.gauge_sd = kLabelSd / std::sqrt(static_cast<double>(std::max<std::ptrdiff_t>(joined, 1)));
+  planned.gauge_sd =
+      std::hypot(kLabelSd / std::sqrt(static_cast<double>(std::max<std::ptrdiff_t>(joined, 1))),
+                 ratios->gauge_sd);
   planned.plan.usable = ratios->linear_to;
   planned.plan.fixed_pattern /= request.samples_averaged;
   for (const auto& frame : signals.frames) {
     planned.usable_share.push_back(1.0 - ShareAbove(frame, signals.clip, planned.plan.usable));
   }
-  if (request.keep_labels) planned.plan.floor = kEncodedFloor;
+  if (frames.front().response != nullptr) planned.plan.floor = kEncodedFloor;
   if (auto chosen = ChooseNoise(signals, request, frames, planned); !chosen) {
     return Propagate(std::move(chosen));
   }
@@ -362,9 +367,9 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
     } else {
       errors.toe = ToeOf(*frames.front().response, std::min(frames.front().channels, 3),
                          planned.plan.exposure.back());
-      errors.misfit = std::hypot(std::min(errors.misfit, kMostMisfit),
-                                 request.power_sd * SpreadOfLevels(planned.plan));
+      errors.misfit = std::min(errors.misfit, kMostMisfit);
     }
+    errors.misfit = std::hypot(errors.misfit, ratios->power_sd * SpreadOfLevels(planned.plan));
     planned.plan.encoded = std::make_shared<const EncodedErrors>(std::move(errors));
   }
   return planned;

@@ -17,11 +17,10 @@ namespace lightcal {
 struct MergeRequest {
   // Of each frame, from tags: any common unit (time ISO / N^2), above 0.
   std::vector<double> label_exposure;
-  // Encoded frames: exposures were found with their response, or are labels beside a stated one.
-  bool keep_labels = false;
-  bool stated_response = false;       // or it was not found from the frames, but stated
-  double power_sd = 0.0;              // of encoded frames: CodeExposures
-  std::optional<NoiseProfile> noise;  // known for all frames; else
+  bool keep_labels = false;  // exposures were found with the response of codes, or are not asked
+  bool stated_response = false;                          // of codes: not found from the frames
+  double power_sd = 0.0;                                 // of encoded frames: CodeExposures
+  std::optional<NoiseProfile> noise;                     // known for all frames; else
   std::vector<std::vector<NoiseProfile>> noise_in_file;  // of each frame, may be empty
   bool noise_of_camera = false;  // the latter comes from a camera's profile, not from the files
   // Samples are means of n x n (AverageFrame): what is known of noise and pixels above, or assumed,
@@ -43,7 +42,8 @@ struct PlannedMerge {
   // Of the gauge: what the labels leave uncertain about all exposures together (1 sigma, relative).
   double gauge_sd = 0.0;
   NoiseSource noise_source = NoiseSource::kEstimated;
-  // duplicate_frame, ratio_from_label, exposure_off, noise_disagrees, noise_assumed, one_frame
+  // duplicate_frame, ratio_from_label, exposure_off, labels_disagree, noise_disagrees,
+  // noise_assumed, one_frame
   Warnings warnings;
 };
 

@@ -121,10 +121,9 @@ Result<void> SetCorrections(const BracketMergeRequest& request, const FrameInfo&
   return {};
 }
 
-// The one that is stated, beside which labels stand; or what the frames tell.
+// The one that is stated, or what the frames tell, their exposures with it.
 Result<void> FindResponse(const BracketMergeRequest& request, PreparedFrames& prepared,
                           MergeRequest& merge) {
-  merge.keep_labels = true;
   merge.stated_response = request.response.has_value();
   if (request.response) {
     const FrameInfo& info = prepared.frames.front().info;
@@ -132,6 +131,7 @@ Result<void> FindResponse(const BracketMergeRequest& request, PreparedFrames& pr
                                         std::min(info.channels, 3));
     return {};
   }
+  merge.keep_labels = true;
   auto recovered = RecoverResponse(prepared.frames, merge.label_exposure);
   if (!recovered) return Propagate(std::move(recovered));
   prepared.response = std::move(recovered->curves);
