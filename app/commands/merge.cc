@@ -32,6 +32,9 @@ std::vector<std::pair<std::string, std::string>> Attributes(const MergedBracket&
       {"scale_source", std::string(WordOf(merged.scale_source))},
       {"scale_u95_relative", RoundedText(merged.scale_u95_relative, 3)},
       {"nits_per_unit", ShortestText(merged.nits_per_unit)}};
+  if (merged.clipped_fraction > 0.0) {
+    attributes.emplace_back("clipped_fraction", ShortestText(merged.clipped_fraction));
+  }
   if (!merged.response_source.empty()) attributes.emplace_back("response", merged.response_source);
   return attributes;
 }

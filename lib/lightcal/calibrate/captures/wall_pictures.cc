@@ -15,6 +15,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/camera/sensor_to_xyz.h"
+#include "lightcal/imaging/scene/flat_top.h"
 #include "lightcal/imaging/scene/patches.h"
 #include "lightcal/imaging/scene/picture_luminance.h"
 
@@ -118,35 +119,14 @@ Column3 MeanOfWall(View2d<const float> rgb, const WallSelection& selection) {
   return sum;
 }
 
-// Pixels of a channel at the largest value that the wall shows there, and those just below it.
-struct TopPixels {
-  int at = 0, below = 0;
-};
-TopPixels TopOfWall(View2d<const float> samples, int channel, const WallSelection& selection) {
-  constexpr float kJustBelow = 1.0F - 0x1p-9F;  // two steps of 16 bit floats or more
-  std::vector<float> wall;
-  ForWall(samples, selection, [&](int x, int y) { wall.push_back(samples(x, y, channel)); });
-  TopPixels top;
-  if (wall.empty()) return top;
-  const float most = *std::ranges::max_element(wall);
-  for (const float value : wall) {
-    if (value == most) {
-      ++top.at;
-    } else if (value > kJustBelow * most) {
-      ++top.below;
-    }
-  }
-  return top;
-}
-
-// Of what rises smoothly to its largest value as many pixels lie just below it, in 16 bit floats
-// too: where hardly any do, the picture was cut off there, or drawn.
 void WarnOfPlateau(const FrameInfo& info, View2d<const float> samples,
                    const WallSelection& selection, Evidence& evidence) {
-  constexpr int kPlateau = 4, kMoreThanBelow = 4;
+  constexpr int kPlateau = 4;
   for (int c = 0; c < samples.channels(); ++c) {
-    const TopPixels top = TopOfWall(samples, c, selection);
-    if (top.at < kPlateau || top.at <= kMoreThanBelow * top.below) continue;
+    std::vector<float> wall;
+    ForWall(samples, selection, [&](int x, int y) { wall.push_back(samples(x, y, c)); });
+    const FlatTop top = TopOf(wall);
+    if (!IsCutOff(top, kPlateau)) continue;
     evidence.warnings.push_back(
         {"maybe_clipped", info.file,
          std::to_string(top.at) +

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <variant>
 
@@ -93,6 +94,25 @@ void TakeStatedScale(const FrameInfo& info, DomeInput& input) {
   }
 }
 
+// A merge says which share of its samples was clipped in every frame: the brightest.
+std::vector<std::uint8_t> ClippedInMerge(const FrameInfo& info, const std::vector<float>& nits) {
+  for (const auto& [name, text] : info.lightcal_attributes) {
+    const double share = name == "clipped_fraction" ? ParseNumber(text).value_or(0.0) : 0.0;
+    if (!(share > 0.0) || nits.empty()) continue;
+    const auto all = static_cast<double>(nits.size());
+    const auto from_top =
+        static_cast<std::ptrdiff_t>(std::clamp(std::round(share * all), 1.0, all));
+    std::vector<float> ranked = nits;
+    std::ranges::nth_element(ranked, ranked.begin() + (from_top - 1), std::greater<>());
+    const float level = ranked[static_cast<std::size_t>(from_top - 1)];
+    std::vector<std::uint8_t> clipped;
+    clipped.reserve(nits.size());
+    for (const float v : nits) clipped.push_back(v >= level ? 1 : 0);
+    return clipped;
+  }
+  return {};
+}
+
 std::vector<std::uint8_t> ClippedFrom(View2d<const float> samples, double level) {
   std::vector<std::uint8_t> clipped;
   clipped.reserve(static_cast<std::size_t>(samples.width()) * samples.height());
@@ -149,6 +169,8 @@ Result<DomeInput> ReadDomePicture(const std::string& file, const Sources& source
     input.clipped = ClippedFrom(samples, *request.clip);
   } else if (frame->info.levels) {
     input.clipped = ClippedFrom(samples, frame->info.levels->maximum);
+  } else {
+    input.clipped = ClippedInMerge(frame->info, luminance->nits);
   }
 
   Dome& dome = input.dome;

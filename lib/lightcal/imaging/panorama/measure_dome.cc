@@ -2,22 +2,29 @@
 #include "lightcal/imaging/panorama/measure_dome.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/panorama/dome_holes.h"
 #include "lightcal/imaging/panorama/turn_north.h"
+#include "lightcal/imaging/scene/flat_top.h"
 #include "lightcal/imaging/scene/picture_luminance.h"
 
 namespace lightcal {
 namespace {
 
-// So many pixels of one light that share the picture's largest value: clipped, or drawn.
-constexpr int kPlateau = 4;
+// So many pixels that share the picture's largest value are clipped, or drawn.
+constexpr int kPlateau = 2;
+// What a light that may be clipped may hold of all that the meter saw: under a clear sky the sun
+// has up to nine tenths.
+constexpr double kMostMissing = 0.9;
 constexpr double kFormatLimit = 65504.0;  // of 16 bit floats
 constexpr double kConflict = 0.25;
 constexpr double kMostHidden = 0.03;  // of a meter's view, in no picture
@@ -98,10 +105,6 @@ Result<double> CheckSeen(const std::optional<DomeReading>& reading, MeasuredDome
                        .c_str());
 }
 
-bool AtLimit(const DomeLight& light, float brightest) {
-  return light.body.plateau >= kPlateau && light.body.peak_nits >= double{brightest};
-}
-
 std::vector<std::uint8_t> PixelsAt(float level, const std::vector<float>& nits) {
   std::vector<std::uint8_t> at;
   at.reserve(nits.size());
@@ -119,39 +122,66 @@ std::vector<DomeLight> FindLights(const DomeInput& input, bool clipped_always) {
       input.clipped);
 }
 
+// Whether the one pixel that is brightest ends where a format does, or is as bright as any in two
+// channels alike, which no light is by chance in a picture with colour.
+bool IsCutOffPixel(const Dome& dome, std::size_t at) {
+  if (IsFormatsEnd(dome.nits[at])) return true;
+  if (dome.channels != 3) return false;
+  std::array<float, 3> most{};
+  bool colour = false;
+  for (std::size_t i = 0; i + 2 < dome.samples.size(); i += 3) {
+    for (std::size_t c = 0; c < 3; ++c) most[c] = std::max(most[c], dome.samples[i + c]);
+    colour = colour || dome.samples[i] != dome.samples[i + 1];
+  }
+  int alike = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t next = (c + 1) % 3;
+    if (dome.samples[3 * at + c] == most[c] && most[c] == most[next]) ++alike;
+  }
+  return colour && alike > 0;
+}
+
+// The picture's largest value, where the picture is cut off there.
+std::optional<float> CutOffAt(const Dome& dome) {
+  const FlatTop top = TopOf(dome.nits);
+  const auto at = std::ranges::find(dome.nits, top.value) - dome.nits.begin();
+  const bool cut_off =
+      top.at == 1 ? IsCutOffPixel(dome, static_cast<std::size_t>(at)) : IsCutOff(top, kPlateau);
+  return cut_off ? std::optional(top.value) : std::nullopt;
+}
+
 // A few pixels at the picture's largest value, far above the rest: a sun too small to be a light by
 // what is left of it.
 bool EndsInFewPixels(const Dome& dome, float brightest) {
   constexpr double kFew = 0.01, kFarAbove = 3.0;  // of the sphere; times the mean luminance
   const LatLongGrid grid = dome.grid();
   double at_limit = 0.0, sum = 0.0;
-  int pixels = 0;
   for (int y = 0; y < dome.height; ++y) {
     const double omega = grid.SolidAngle(y);
     for (const float v : dome.luminance().row(y)) {
       sum += omega * double{v};
-      if (v < brightest) continue;
-      at_limit += omega;
-      ++pixels;
+      if (v >= brightest) at_limit += omega;
     }
   }
   constexpr double kSphere = 4.0 * std::numbers::pi;
-  return pixels >= kPlateau &&
-         at_limit<kFew * kSphere&& double{brightest}> kFarAbove * sum / kSphere;
+  return at_limit<kFew * kSphere&& double{brightest}> kFarAbove * sum / kSphere;
 }
 
 // What may be clipped, where that is so.
 std::string SuspectOf(const MeasuredDome& measured, float brightest, bool has_reading) {
-  const auto light = std::ranges::find_if(
-      measured.lights, [&](const DomeLight& one) { return AtLimit(one, brightest); });
+  const auto light = std::ranges::find_if(measured.lights, [&](const DomeLight& one) {
+    return one.body.peak_nits >= double{brightest};
+  });
   if (light != measured.lights.end()) {
     const AzimuthElevation at = AnglesOf(TurnedNorth(light->direction, measured.north));
-    return std::to_string(light->body.plateau) + " pixels of the light at azimuth " +
-           RoundedText(at.azimuth_deg, 3) + ", elevation " + RoundedText(at.elevation_deg, 3);
+    const int pixels = light->body.plateau;
+    return std::to_string(pixels) + (pixels == 1 ? " pixel" : " pixels") +
+           " of the light at azimuth " + RoundedText(at.azimuth_deg, 3) + ", elevation " +
+           RoundedText(at.elevation_deg, 3);
   }
   // Only a reading would be divided by what they lack.
   if (!has_reading || !EndsInFewPixels(measured.input.dome, brightest)) return "";
-  return "a few pixels that are far brighter than the rest";
+  return "a pixel or a few that are far brighter than the rest";
 }
 
 // Whether a card took away more than the pixels of any light give.
@@ -169,34 +199,39 @@ bool ShadedBeyondPixels(const DomeReading& reading, const MeasuredDome& measured
 void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>& reading,
                    MeasuredDome& measured) {
   DomeInput& input = measured.input;
-  if (request.input.clip) return;
-  const float brightest = *std::max_element(input.dome.nits.begin(), input.dome.nits.end());
-  // A card that took away more than any light shows knows of one that is clipped.
-  if (reading && reading->shaded && ShadedBeyondPixels(*reading, measured) &&
-      !SuspectOf(measured, brightest, true).empty()) {
-    input.clipped = PixelsAt(brightest, input.dome.nits);
-    measured.lights = FindLights(input, true);
-    return;
-  }
-  const std::string suspect =
-      SuspectOf(measured, brightest, reading.has_value() && !reading->shaded);
-  if (suspect.empty()) return;
-  if (reading && !reading->shaded && input.absolute) {
+  if (request.input.clip || std::ranges::find(input.clipped, 1) != input.clipped.end()) return;
+  const std::optional<float> brightest = CutOffAt(input.dome);
+  if (!brightest) return;
+  const bool one_reading = reading && !reading->shaded;
+  if (SuspectOf(measured, *brightest, reading.has_value()).empty()) return;
+  const auto exceeds = [&] {
     const double seen =
         IlluminanceOn(input.dome.luminance(), input.dome.grid(), reading->normal).value();
     const double u95 = input.scale_u95_relative.value_or(kUnstatedScaleU95);
-    if (reading->illuminance.value() > seen * (1.0 + u95)) {
-      input.clipped = PixelsAt(brightest, input.dome.nits);
-      measured.lights = FindLights(input, true);
-      return;
-    }
+    return reading->illuminance.value() > seen * (1.0 + u95);
+  };
+  // A card that took away more than any light shows knows of one that is clipped.
+  if (one_reading ? input.absolute && exceeds()
+                  : reading && ShadedBeyondPixels(*reading, measured)) {
+    input.clipped = PixelsAt(*brightest, input.dome.nits);
+    measured.lights = FindLights(input, true);
+    return;
+  }
+  const std::string suspect = SuspectOf(measured, *brightest, one_reading);
+  if (suspect.empty()) return;
+  if (one_reading) {
+    const double of_file = input.scale_u95_relative.value_or(kUnstatedScaleU95);
+    measured.missing_sd = (input.absolute ? of_file : kMostMissing) / kZ95;
   }
   measured.warnings.push_back(
       {"maybe_clipped", input.files.front(),
        suspect +
-           " share the picture's largest value; if they are clipped, say from where ({dome.clip}) "
-           "and "
-           "read again with the light shaded ({dome.shaded})"});
+           (suspect.starts_with("1 ") ? " ends at the picture's largest value"
+                                      : " share the picture's largest value") +
+           "; clipped, they lack light" +
+           (one_reading ? " that the meter saw, and the scale holds that" : "") +
+           ": say from where samples are clipped ({dome.clip}; above them all if these were drawn) "
+           "and read again with the light shaded ({dome.shaded})"});
 }
 
 Result<void> SetScale(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
@@ -215,7 +250,7 @@ Result<void> SetScale(const std::optional<DomeReading>& reading, MeasuredDome& m
   if (scaled) {
     measured.unit_known = true;
     if (scale->read_weight >= 0.5) measured.scale_source = reading->shaded ? "lux_shaded" : "lux";
-    measured.scale_u95_relative = kZ95 * scale->sd_relative;
+    measured.scale_u95_relative = kZ95 * std::hypot(scale->sd_relative, measured.missing_sd);
     std::erase_if(input.warnings, [](const Warning& w) { return w.code == "relative_scale"; });
   }
   const double off = std::abs(std::log(scale->read_factor));
@@ -298,7 +333,7 @@ Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request) {
   if (reading) {  // the hidden part may be as dark as it may be bright
     reading->sigma_relative = std::hypot(reading->sigma_relative, *hidden / 2.0);
   }
-  measured.lights = FindLights(measured.input, request.input.clip.has_value());
+  measured.lights = FindLights(measured.input, !measured.input.clipped.empty());
   JudgePlateaus(request, reading, measured);
   if (auto ok = SetScale(reading, measured); !ok) return Propagate(std::move(ok));
   OrderLights(measured);

@@ -27,6 +27,7 @@ struct MeasuredDome {
   DomeScale scale;
   std::string scale_source;  // "lux" "lux_shaded", else the input's
   std::optional<double> scale_u95_relative;
+  double missing_sd = 0.0;  // of the scale, by light that a picture cut off may lack; relative
   bool unit_known = false;  // samples are cd/m^2 by file, person or reading
   Radians north{0.0};
   Warnings warnings;

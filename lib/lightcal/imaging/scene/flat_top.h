@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Was a picture cut off at its brightest?
+#pragma once
+
+#include <span>
+
+namespace lightcal {
+
+// Samples that hold the largest value of all, and those just below it.
+struct FlatTop {
+  float value = 0.0F;
+  int at = 0, below = 0;
+};
+[[nodiscard]] FlatTop TopOf(std::span<const float> samples);
+
+// Of what rises smoothly to its largest value as many samples lie just below it, in 16 bit floats
+// too: where hardly any do, the picture was cut off there, or drawn. `least`: so many share it.
+[[nodiscard]] bool IsCutOff(const FlatTop& top, int least);
+
+// Whether formats end here: full scale of integers and of what is scaled to 1, 16 bit floats.
+[[nodiscard]] bool IsFormatsEnd(float sample);
+
+}  // namespace lightcal

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`lightcal dome` of a sun that is cut off in a pixel or two: the lux reading holds light that the picture lacks, so
+the scale is said to hold that, or, of a merge that wrote how much it clipped, the sun is what the reading leaves.
+The world: a sky and a disc of half a degree by numpy, eight samples a pixel each way; no header of lightcal."""
+import pathlib
+import sys
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
+from built_command import HOME, answer  # noqa: E402
+from plain_png import write_png  # noqa: E402
+from usdlux import write_exr  # noqa: E402
+
+H, FINE = 128, 8
+PITCH = np.pi / H
+
+
+def directions(rows):
+    pitch = np.pi / rows
+    azimuth, polar = np.meshgrid((np.arange(2 * rows) + 0.5) * pitch - np.pi, (np.arange(rows) + 0.5) * pitch)
+    return np.stack([np.sin(polar) * np.sin(azimuth), np.sin(polar) * np.cos(azimuth), np.cos(polar)], -1)
+
+
+WAY = directions(H)
+OMEGA = np.sqrt(1 - WAY[..., 2] ** 2) * PITCH**2
+SKY = np.where(WAY[..., 2] > 0, 4000 + 3000 * WAY[..., 2] + 500 * np.sin(9 * WAY[..., 0]) * np.cos(7 * WAY[..., 1]), 1500.0)
+BLUE, WARM = np.array([0.8, 1.0, 1.4]), np.array([1.2, 1.0, 0.8])
+Y709 = np.array([0.2126, 0.7152, 0.0722])
+
+
+def sun_at(column, row, nits=1.2e9):
+    """Luminance of a disc of .53 degrees whose middle lies there, in pixels."""
+    azimuth, polar = column * PITCH - np.pi, row * PITCH
+    sun = np.array([np.sin(polar) * np.sin(azimuth), np.sin(polar) * np.cos(azimuth), np.cos(polar)])
+    disc = directions(H * FINE) @ sun > np.cos(np.radians(0.265))
+    return nits * disc.reshape(H, FINE, 2 * H, FINE).mean((1, 3))
+
+
+def up(luminance):
+    return float((luminance * np.clip(WAY[..., 2], 0, None) * OMEGA).sum())
+
+
+def scale_of(name, sun, clip, unit=7e-4, colours=True):
+    """What the dome made of pixel values, beside the truth, and what it warned of."""
+    pixels = SKY[..., None] * BLUE + sun[..., None] * WARM if colours else np.repeat((SKY + sun)[..., None], 3, -1)
+    lux = up(pixels @ Y709)
+    pixels = np.minimum(pixels * unit, clip)
+    write_exr(HOME / f"{name}.exr", pixels)
+    said = answer("dome", HOME / f"{name}.exr", "--lux", f"{lux:.6g}", "-o", HOME / name)
+    return said["scale"]["factor"] * unit, said["scale"]["u95_relative"], [w["code"] for w in said.get("warnings", [])]
+
+
+for name, place, clip, colours in (("pixel", (100.5, 40.5), 90.0, True), ("two", (100.0, 40.5), 90.0, True),
+                                   ("four", (100.0, 40.0), 200.0, True), ("end", (30.5, 30.5), 255.0, False)):
+    factor, u95, warned = scale_of(name, sun_at(*place), clip, colours=colours)
+    print(f"sun cut off in {name}: scale {factor:.2f} of the truth, +- {100 * u95:.0f} %, {warned}")
+    assert factor > 1.5 and "maybe_clipped" in warned, (name, factor, warned)
+    assert abs(1 - factor) < u95 * factor, (name, factor, u95)
+
+factor, u95, warned = scale_of("whole", sun_at(100.5, 40.5), np.inf)
+assert abs(factor - 1) < 0.01 and u95 < 0.11 and "maybe_clipped" not in warned, (factor, u95, warned)
+
+# A merge knows what it clipped: of its picture, in cd/m2, the sun is what the reading leaves over the sky.
+sun = sun_at(100.5, 40.5)
+for i, time in enumerate((1.0, 4.0)):
+    write_png(HOME / f"{i}.png", np.repeat(np.round(np.minimum((SKY + sun) * time * 2, 65535))[..., None], 3, -1).astype(np.uint16))
+answer("merge", HOME / "0.png", HOME / "1.png", "-o", HOME / "merged.exr", "--response", "linear", "--exposures", "1,4",
+       "--f-number", "8", "--iso", "100", "--mains", "none", "--anchor", f"60,30,4,4={SKY[30:34, 60:64].mean():.6g}",
+       "--anchor-sigma", "1%")
+said = answer("dome", HOME / "merged.exr", "--lux", f"{up(SKY + sun):.6g}", "-o", HOME / "merged")
+light = said["lights"][0]
+true_lx = up(sun) / np.cos(40.5 * PITCH)
+print(f"a merge's clipped sun: {light['illuminance_lx']} of {true_lx:.0f} lx")
+assert light["illuminance_lx"]["value"] and abs(light["illuminance_lx"]["value"] / true_lx - 1) < 0.05, (light, true_lx)
+assert abs(said["scale"].get("factor", 1.0) - 1) < 0.01, said["scale"]
