@@ -112,6 +112,36 @@ TEST(EngineAnswers, APeakedBeamHasItsCandelaOnTheAxisInGodot) {
   EXPECT_NEAR(row->engine_lx / row->expected_lx, 1.0, 0.002);
 }
 
+// Whoever asks for figures alone gets those of the files, and no file.
+TEST(PresetTable, FiguresAloneAreThoseOfTheFiles) {
+  const LightFile lights = FileOf({WarmPoint(), Spot(), Disk(), Sun(), WarmDome()});
+  PresetOptions figures;
+  figures.written = Written::kFigures;
+  int derived = 0;
+  for (const PresetTarget& target : PresetTargets()) {
+    if (target.only_if_named) continue;
+    const auto whole = target.exporter(lights, "stem", {});
+    const auto alone = target.exporter(lights, "stem", figures);
+    ASSERT_TRUE(whole && alone) << target.name;
+    ASSERT_EQ(alone->derived.size(), whole->derived.size()) << target.name;
+    for (std::size_t i = 0; i < whole->derived.size(); ++i) {
+      const DerivedLight& a = alone->derived[i];
+      const DerivedLight& b = whole->derived[i];
+      EXPECT_EQ(a.type, b.type) << target.name;
+      EXPECT_EQ(a.substitution, b.substitution) << target.name;
+      ASSERT_EQ(a.fields.size(), b.fields.size()) << target.name;
+      for (std::size_t k = 0; k < b.fields.size(); ++k, ++derived) {
+        EXPECT_EQ(a.fields[k].name, b.fields[k].name) << target.name;
+        EXPECT_EQ(a.fields[k].values, b.fields[k].values) << target.name;
+      }
+    }
+    for (const PresetFile& file : alone->files) {
+      EXPECT_TRUE(!file.name.ends_with(".ies") || file.contents.empty()) << file.name;
+    }
+  }
+  EXPECT_GT(derived, 100);
+}
+
 TEST(PresetTable, AnEngineOfReportsIsReadBackOrHasAnEmissionLaw) {
   for (const PresetTarget* target : ReportTargets()) {
     EXPECT_TRUE(target->reader != nullptr || target->emission != nullptr) << target->name;

@@ -186,7 +186,8 @@ Result<IntensityTable> MirroredInC0(const IntensityTable& table) {
 }
 
 Result<std::string> MirroredIes(const LightFile& file, const FittedLight& lamp,
-                                const PresetLight& light, const std::string& stem) {
+                                const PresetLight& light, const std::string& stem,
+                                Written written) {
   LightFile alone;
   alone.lights = {lamp};
   alone.provenance = file.provenance;
@@ -195,7 +196,7 @@ Result<std::string> MirroredIes(const LightFile& file, const FittedLight& lamp,
     if (!mirrored) return Propagate(std::move(mirrored));
     alone.lights.front().distribution->table = *std::move(mirrored);
   }
-  auto files = IesFiles(alone, stem);
+  auto files = IesFiles(alone, stem, EveryText(written));
   if (!files) return Propagate(std::move(files));
   return files->front()->contents;
 }
@@ -223,7 +224,7 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
     PutPlainPower((*forms)[i], preset.derived.back());
     document.Put("controls", KnobsNode(options, lamp, (*forms)[i]));
     if ((*forms)[i].form == LightForm::kTable) {
-      auto ies = MirroredIes(lights, lamp, (*forms)[i], stem);
+      auto ies = MirroredIes(lights, lamp, (*forms)[i], stem, options.written);
       if (!ies) return Propagate(std::move(ies));
       document.Put("ies", *ies);
     }
@@ -244,7 +245,7 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
                 {"into", IntoNode(options.into)},
                 {"rig", options.rig ? NodeOf(rig) : Node()},
                 {"provenance", NodeOf(lights.provenance)}},
-               name + ".blender.py");
+               name + ".blender.py", options.written);
   if (!text) return tl::unexpected(text.error());
   preset.files.push_back(
       {name + ".blender.py", ScriptWith("blender.py", WithoutApostrophes(*text))});

@@ -217,9 +217,10 @@ Result<Preset> ExportFilament(const LightFile& lights, const std::string& stem,
       Node& light = list.items.back();
       const std::string ktx = stem + "-" + FileNamePart((*forms)[i].name()) + ".ktx";
       const Node& bands = *light.Find("irradiance");
-      preset.files.push_back({ktx, options.figures_only ? std::string()
-                                                        : FilamentKtx(*(*forms)[i].environment,
-                                                                      HarmonicsText(bands))});
+      preset.files.push_back(
+          {ktx, options.written != Written::kAll
+                    ? std::string()
+                    : FilamentKtx(*(*forms)[i].environment, HarmonicsText(bands))});
       light.Put("picture", ktx);
       preset_text::WarnOfHalfFloats((*forms)[i], "Filament", preset.warnings);
     }
@@ -236,10 +237,14 @@ Result<Preset> ExportFilament(const LightFile& lights, const std::string& stem,
                         {"exposure", exposure},
                         {"rig", options.rig ? NodeOf(Turned(rig, GltfFromZUp)) : Node()},
                         {"provenance", NodeOf(lights.provenance)}},
-                       name + ".filament.json");
+                       name + ".filament.json", options.written);
   if (!text) return Propagate(std::move(text));
   preset.files.insert(preset.files.begin(), {name + ".filament.json", std::move(*text)});
-  if (!options.rig) preset.files.push_back({stem + ".filament.h", Snippet(list, exposure)});
+  if (!options.rig) {
+    const bool figures = options.written == Written::kFigures;
+    preset.files.push_back(
+        {stem + ".filament.h", figures ? std::string() : Snippet(list, exposure)});
+  }
   return preset;
 }
 

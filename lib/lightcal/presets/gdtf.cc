@@ -277,8 +277,9 @@ Result<Described> FixtureOf(const FittedLight& lamp, const Provenance& provenanc
 }  // namespace
 
 Result<Preset> ExportGdtf(const LightFile& lights, const std::string& stem,
-                          const PresetOptions& /*options*/) {
+                          const PresetOptions& options) {
   Preset preset;
+  if (options.written == Written::kFigures) return preset;  // no engine's: derives none
   std::set<std::string> taken;
   std::vector<std::string> without;
   for (const FittedLight& lamp : lights.lights) {

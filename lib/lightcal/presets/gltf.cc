@@ -292,7 +292,7 @@ void AddImageBasedScene(Gltf& gltf, const LightFile& file, const std::vector<Pun
     radiance[i] *= light.intensity / std::numbers::pi;
     coefficients[0][i] = std::numbers::pi * radiance[i] * std::sqrt(4.0 * std::numbers::pi);
   }
-  const auto picture = index < options.environments.size() && !options.figures_only
+  const auto picture = index < options.environments.size() && options.written == Written::kAll
                            ? options.environments[index]
                            : nullptr;
   Node specular;
@@ -373,14 +373,16 @@ Result<Preset> ExportGltf(const LightFile& lights, const std::string& stem,
   const PresetOptions options = preset_text::InRec709(asked, "gltf", preset.warnings);
   const auto punctual = PunctualLightsFrom(lights, preset.warnings, options.color);
   if (!punctual) return tl::unexpected(punctual.error());
-  auto ies = IesFiles(lights, stem);
+  auto ies = IesFiles(lights, stem, [&](std::size_t i) {
+    return options.written != Written::kFigures && lights.lights[i].distribution.has_value();
+  });
   if (!ies) return Propagate(std::move(ies));
   const auto refits = RefitInGltf(lights, *punctual, options, preset.warnings);
   Gltf gltf = WithLights(lights, stem, *punctual, refits, options);
   AddPhotometricScene(gltf, lights, *punctual, *ies);
   AddImageBasedScene(gltf, lights, *punctual, options);
   const std::string name = preset_text::SceneStem(stem, options);
-  auto text = JsonText(gltf.Document(), name + ".gltf");
+  auto text = JsonText(gltf.Document(), name + ".gltf", options.written);
   if (!text) return Propagate(std::move(text));
   preset.files.push_back({name + ".gltf", std::move(*text)});
   for (std::size_t i = 0; i < punctual->size(); ++i) {

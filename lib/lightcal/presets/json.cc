@@ -93,7 +93,7 @@ std::vector<Derivation> Derivations(const LightFile& file, const std::string& st
                                     const PresetOptions& options) {
   std::vector<Derivation> all;
   PresetOptions figures = options;
-  figures.figures_only = true;
+  figures.written = Written::kFigures;
   for (const PresetTarget& target : PresetTargets()) {
     if (target.exporter == &ExportJson || target.only_if_named) continue;
     auto preset = target.exporter(file, stem, figures);
@@ -209,7 +209,7 @@ Result<Preset> ExportJson(const LightFile& lights, const std::string& stem,
   Node rig_node = NodeOf(rig);
   rig_node.Put("panorama", PanoramaNode(rig, *forms));
   const auto derivations = Derivations(lights, stem, options);
-  const auto ies = IesFiles(lights, stem);
+  const auto ies = IesFiles(lights, stem, EveryText(Written::kFigures));
   if (!ies) return tl::unexpected(ies.error());
   const std::string name = preset_text::SceneStem(stem, options);
   Node list = Node::Array();

@@ -44,18 +44,21 @@ using Writer = Result<std::string> (*)(const PhotometricFile& file);
 using FilesOfLights = Result<std::vector<std::optional<PresetFile>>>;
 
 FilesOfLights Files(const LightFile& lights, const std::string& stem, std::string_view extension,
-                    Writer write) {
+                    Writer write, const TextAsked& asked) {
   std::vector<std::optional<PresetFile>> files;
   std::set<std::string> taken;
-  for (const FittedLight& lamp : lights.lights) {
+  for (std::size_t i = 0; i < lights.lights.size(); ++i) {
+    const FittedLight& lamp = lights.lights[i];
     auto table = DistributionOf(lamp);
     if (!table) return Propagate(std::move(table));
     files.emplace_back();
     if (!*table) continue;
+    const std::string name = DistinctFileName(stem + "-" + FileNamePart(lamp.name), taken);
+    files.back() = PresetFile{name + "." + std::string(extension), ""};
+    if (!asked(i)) continue;
     auto text = write(FileOf(lamp, **std::move(table), lights.provenance));
     if (!text) return Propagate(std::move(text));
-    const std::string name = DistinctFileName(stem + "-" + FileNamePart(lamp.name), taken);
-    files.back() = PresetFile{name + "." + std::string(extension), std::move(*text)};
+    files.back()->contents = std::move(*text);
   }
   return files;
 }
@@ -79,19 +82,21 @@ Result<Preset> Export(const LightFile& lights, FilesOfLights files, std::string_
 
 }  // namespace
 
-FilesOfLights IesFiles(const LightFile& lights, const std::string& stem) {
-  return Files(lights, stem, "ies",
-               [](const PhotometricFile& file) { return Result<std::string>(IesText(file)); });
+FilesOfLights IesFiles(const LightFile& lights, const std::string& stem, const TextAsked& asked) {
+  return Files(
+      lights, stem, "ies",
+      [](const PhotometricFile& file) { return Result<std::string>(IesText(file)); }, asked);
 }
 
 Result<Preset> ExportIes(const LightFile& lights, const std::string& stem,
-                         const PresetOptions& /*options*/) {
-  return Export(lights, IesFiles(lights, stem), "ies");
+                         const PresetOptions& options) {
+  return Export(lights, IesFiles(lights, stem, EveryText(options.written)), "ies");
 }
 
 Result<Preset> ExportLdt(const LightFile& lights, const std::string& stem,
-                         const PresetOptions& /*options*/) {
-  return Export(lights, Files(lights, stem, "ldt", &EulumdatText), "ldt");
+                         const PresetOptions& options) {
+  return Export(lights, Files(lights, stem, "ldt", &EulumdatText, EveryText(options.written)),
+                "ldt");
 }
 
 }  // namespace lightcal

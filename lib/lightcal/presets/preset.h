@@ -46,6 +46,13 @@ struct RigPlace {
   [[nodiscard]] bool OnAxis() const { return off_axis_deg == 0.0; }
 };
 
+// What of a preset is written out; files of the rest are named and stay empty.
+enum class Written : std::uint8_t {
+  kAll,
+  kNoPictures,
+  kFigures,  // no file at all: what is derived, for whoever asks for no more
+};
+
 struct PresetOptions {
   // false: the lights alone, which touch nothing else in the scene they come into. true: the rig,
   // <stem>.rig.<ending>: the lights with cards, camera and exposure in a scene of its own.
@@ -66,8 +73,8 @@ struct PresetOptions {
   // What the lights' controls do, for engines that can turn them; empty: they are as they stand.
   // ExportPresets finds them out where there are none.
   std::vector<ControlSweep> sweeps{};
-  bool figures_only = false;  // pictures are not encoded: their files stay empty
-  Progress progress{};        // of all that is written, target by target
+  Written written = Written::kAll;
+  Progress progress{};  // of all that is written, target by target
 };
 
 struct PresetFile {

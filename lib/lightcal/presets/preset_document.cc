@@ -103,10 +103,11 @@ Rig Turned(Rig rig, Vec3 (*map)(const Vec3&)) {
   return rig;
 }
 
-Result<std::string> JsonText(const Node& document, const std::string& subject) {
+Result<std::string> JsonText(const Node& document, const std::string& subject, Written written) {
   if (records::FindNotFinite(document)) {
     return Failed("not_finite", subject, "a number of the light is not finite; nothing exported");
   }
+  if (written == Written::kFigures) return std::string();
   return PrintJson(document, records::JsonLayout::kPretty) + "\n";
 }
 

@@ -10,6 +10,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/presets/derived_light.h"
+#include "lightcal/presets/preset.h"
 #include "lightcal/presets/preset_light.h"
 #include "lightcal/presets/rig.h"
 #include "lightcal/records/document.h"
@@ -43,8 +44,10 @@ template <std::size_t N>
 // The rig in an engine's axes: every place and direction through `map`, which is linear.
 [[nodiscard]] Rig Turned(Rig rig, Vec3 (*map)(const Vec3&));
 
-// Indented text with a final newline.   Fails: not_finite, rather than write null for a number.
+// Indented text with a final newline; empty of figures alone.   Fails: not_finite, rather than
+// write null for a number.
 [[nodiscard]] Result<std::string> JsonText(const records::Node& document,
-                                           const std::string& subject);
+                                           const std::string& subject,
+                                           Written written = Written::kAll);
 
 }  // namespace lightcal

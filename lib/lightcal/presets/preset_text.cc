@@ -98,7 +98,7 @@ PresetFile PictureFileOf(const PresetLight& light, const std::string& stem,
   constexpr Way kWays[] = {{".hdr", RadianceFile}, {".exr", ExrFile}, {".pfm", EqualAreaSquare}};
   const Way& way = kWays[static_cast<std::size_t>(encoding)];
   PresetFile file{stem + "-" + FileNamePart(light.name()) + space + way.ending, ""};
-  if (options.figures_only) return file;
+  if (options.written != Written::kAll) return file;
   EncodedPicture encoded = way.encode(*light.environment, options.color);
   if (encoded.cut_below > kNothing) {
     warnings.push_back({"picture_cut", light.name(),

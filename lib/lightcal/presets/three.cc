@@ -201,7 +201,7 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
   const PresetOptions options = preset_text::InRec709(asked, "three", preset.warnings);
   const auto forms = PresetLightsFrom(lights, kThree, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
-  const auto ies = IesFiles(AsShown(lights, *forms), stem);
+  const auto ies = IesFiles(AsShown(lights, *forms), stem, TextsOfTables(*forms, options.written));
   if (!ies) return tl::unexpected(ies.error());
   const std::vector<ThreeRange> ranges = RangesOf(lights, *forms, options, preset.warnings);
   const Rig rig = BuildRig(lights, *forms, options.rig_place);
@@ -224,9 +224,9 @@ Result<Preset> ExportThree(const LightFile& lights, const std::string& stem,
                         {"exposure", NodeOf(rig.exposure)},
                         {"rig", options.rig ? NodeOf(Turned(rig, GltfFromZUp)) : Node()},
                         {"provenance", NodeOf(lights.provenance)}},
-                       name + ".three.js");
+                       name + ".three.js", options.written);
   if (!text) return Propagate(std::move(text));
-  text->pop_back();
+  if (text->ends_with('\n')) text->pop_back();
   preset.files.push_back({name + ".three.js", ScriptWith("three.js", *text)});
   std::ranges::move(pictures, std::back_inserter(preset.files));
   return preset;

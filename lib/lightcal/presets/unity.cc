@@ -155,7 +155,7 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
                {"lights", std::move(list)}};
   root.Put("into", IntoNode(options.into));
   if (options.rig) root.Put(RigNode(rig));
-  auto text = JsonText(root, name + ".unity.json");
+  auto text = JsonText(root, name + ".unity.json", options.written);
   if (!text) return Propagate(std::move(text));
   preset.files = {{name + ".unity.json", *std::move(text)},
                   {"LightcalImporter.cs", std::string(Script("LightcalImporter.cs"))}};

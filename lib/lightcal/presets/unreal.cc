@@ -124,10 +124,11 @@ bool AllFinite(const OrderedJson& json) {
 }
 
 // JSON inside a raw triple-quoted Python string.
-Result<std::string> ScriptText(const OrderedJson& data, const std::string& name) {
+Result<std::string> ScriptText(const OrderedJson& data, const std::string& name, Written written) {
   if (!AllFinite(data)) {
     return Failed("not_finite", name, "a number of the light is not finite; nothing exported");
   }
+  if (written == Written::kFigures) return std::string();
   const std::string text = data.dump(1, ' ', true, OrderedJson::error_handler_t::replace);
   return ScriptWith("unreal.py", WithoutApostrophes(text));
 }
@@ -198,7 +199,7 @@ Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
   const PresetOptions options = preset_text::InRec709(asked, "unreal", preset.warnings);
   const auto forms = PresetLightsFrom(lights, kUnrealForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
-  auto ies = IesFiles(lights, stem);
+  auto ies = IesFiles(lights, stem, TextsOfTables(*forms, options.written));
   if (!ies) return Propagate(std::move(ies));
   const auto refits =
       RefitLights(lights, *forms,
@@ -237,10 +238,10 @@ Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
     data["into"].push_back({{"lamp", row.lamp}, {"object", row.object}});
   }
   if (options.rig) data["rig"] = RigJson(BuildRig(lights, *forms, options.rig_place));
-  auto script = ScriptText(data, name + ".unreal.py");
+  auto script = ScriptText(data, name + ".unreal.py", options.written);
   if (!script) return Propagate(std::move(script));
   const bool sets = !options.into.empty();
-  if (!options.rig && !sets) {
+  if (!options.rig && !sets && options.written != Written::kFigures) {
     preset.files.insert(preset.files.begin(), {stem + ".t3d", T3dText(*forms, unreal)});
   }
   preset.files.insert(preset.files.begin(), {name + ".unreal.py", *std::move(script)});

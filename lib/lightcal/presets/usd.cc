@@ -335,7 +335,7 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
   Preset preset;
   const auto forms = PresetLightsFrom(lights, kUsdForms, options, preset.warnings);
   if (!forms) return tl::unexpected(forms.error());
-  auto ies = IesFiles(lights, stem);
+  auto ies = IesFiles(lights, stem, TextsOfTables(*forms, options.written));
   if (!ies) return Propagate(std::move(ies));
   const Rig rig = BuildRig(lights, *forms, options.rig_place);
   std::string text = Head(lights, rig, options);

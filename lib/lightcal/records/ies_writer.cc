@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // IES LM-63-2002, as photometric_codec.h says; its grammar is read in ies_codec.cc.
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -18,14 +20,18 @@ constexpr std::size_t kLongestLine = 120;
 std::string IesNumber(double value) { return records::PlainNumber(value, kIesDigits); }
 
 void AppendNumbers(std::string& out, const double* values, std::size_t count) {
-  std::string line;
+  std::string line, number;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string number = IesNumber(values[i]);
+    // A lamp without optics is as bright in the next direction.
+    const bool again = i > 0 && std::bit_cast<std::uint64_t>(values[i]) ==
+                                    std::bit_cast<std::uint64_t>(values[i - 1]);
+    if (!again) number = IesNumber(values[i]);
     if (!line.empty() && line.size() + 1 + number.size() > kLongestLine) {
       out += line + "\r\n";
       line.clear();
     }
-    line += (line.empty() ? "" : " ") + number;
+    if (!line.empty()) line += ' ';
+    line += number;
   }
   out += line + "\r\n";
 }

@@ -93,14 +93,16 @@ std::vector<EngineExport> ExportsOf(const LightFile& lights, const Pictures& env
   const bool any_picture =
       std::ranges::any_of(environments, [](const auto& picture) { return picture != nullptr; });
   for (const PresetTarget* engine : ReportTargets()) {
-    auto preset = engine->exporter(lights, "report", {});
+    PresetOptions options;
+    if (engine->emission != nullptr) options.written = Written::kFigures;
+    auto preset = engine->exporter(lights, "report", options);
     if (!preset || preset->derived.size() != lights.lights.size()) continue;
     EngineExport one{engine, std::move(preset->derived), {}};
     if (engine->emission == nullptr) one.read_back = ReadBack(*engine, *preset);
     if (any_picture) {  // what is typed in is that of the pictures
       PresetOptions with_pictures;
       with_pictures.environments = environments;
-      with_pictures.figures_only = true;
+      with_pictures.written = Written::kFigures;
       auto pictured = engine->exporter(lights, "report", with_pictures);
       if (pictured && pictured->derived.size() == one.derived.size()) {
         one.derived = std::move(pictured->derived);

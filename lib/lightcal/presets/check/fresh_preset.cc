@@ -13,7 +13,7 @@ std::optional<FreshPreset> FreshPresetOf(const PresetTarget& target, const Light
                                          SpotForm spots) {
   if (target.reader == nullptr || target.place_in_report == 0) return std::nullopt;
   PresetOptions options;
-  options.figures_only = true;
+  options.written = Written::kNoPictures;
   options.spots = spots;
   auto preset = target.exporter(lights, "fresh", options);
   if (!preset) return std::nullopt;
