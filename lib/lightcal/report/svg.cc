@@ -2,6 +2,7 @@
 #include "lightcal/report/svg.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lightcal/core/numbers_text.h"
@@ -40,12 +41,41 @@ std::vector<std::string> TickLabels(const Axis& axis, const std::vector<double>&
 
 }  // namespace
 
-std::string Px(double value) { return ShortestText(std::round(value * 100.0) / 100.0); }
+// Hundredths, as ShortestText writes them.
+std::string Px(double value) {
+  constexpr double kShortByDigits = 1e6;  // hundredths, below which no exponent is shorter
+  const double hundredths = std::round(value * 100.0);
+  if (!(std::abs(hundredths) < kShortByDigits)) return ShortestText(hundredths / 100.0);
+  std::array<char, 12> buffer;
+  char* const end = buffer.data() + buffer.size();
+  char* at = end;
+  const auto put = [&at](int digit) { *--at = static_cast<char>('0' + digit); };
+  int left = static_cast<int>(std::abs(hundredths));
+  const int part = left % 100;
+  if (part % 10 != 0) put(part % 10);
+  if (part != 0) {
+    put(part / 10);
+    *--at = '.';
+  }
+  left /= 100;
+  do {
+    put(left % 10);
+    left /= 10;
+  } while (left > 0);
+  if (hundredths < 0.0) *--at = '-';
+  return {at, end};
+}
 
 std::string PathData(const std::vector<PagePoint>& points, bool closed) {
   std::string data;
-  for (const auto& [x, y] : points) data += (data.empty() ? "M" : "L") + Px(x) + " " + Px(y);
-  return data + (closed ? "Z" : "");
+  for (const auto& [x, y] : points) {
+    data += data.empty() ? 'M' : 'L';
+    data += Px(x);
+    data += ' ';
+    data += Px(y);
+  }
+  if (closed) data += 'Z';
+  return data;
 }
 
 const PlotArea& Svg::Area() { return kArea; }
