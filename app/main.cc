@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "command_tree.h"
 #include "commands.h"
@@ -45,10 +47,20 @@ int Main(int argc, char** argv) {
   parser.require_subcommand(1);
   SayWhatRepeats(parser);
   Parsed parsed;
-  for (const CommandRow& row : Commands()) {
-    CLI::App& sub = AddCommand(parser, row, parsed.flags);
-    // Only the chosen command builds its options: start-up stays the same as commands are added.
-    if (argc > 1 && row.name == argv[1]) parsed.run = row.build(sub);
+  // Only the command that the first word names is built, and the others are listed only where none
+  // is: start-up stays the same as commands are added.
+  const std::span<char*> words(argv + std::min(argc, 1), argv + argc);
+  const auto word = std::ranges::find_if(words, [](const char* a) { return a[0] != '-'; });
+  const auto chosen = word == words.end() ? Commands().end()
+                                          : std::ranges::find(Commands(), std::string_view(*word),
+                                                              &CommandRow::name);
+  const bool asks_version = !words.empty() && std::string_view(words[0]) == "--version";
+  if (chosen != Commands().end()) {
+    parsed.run = chosen->build(AddCommand(parser, *chosen, parsed.flags));
+  } else if (!asks_version) {
+    for (const CommandRow& row : Commands()) {
+      parser.add_subcommand(std::string(row.name), std::string(row.summary));
+    }
   }
   try {
     parser.parse(argc, argv);
