@@ -14,11 +14,11 @@ double Normal(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 }  // namespace
 
 // By Newton's steps on the distribution function within what is known to hold the root, halved
-// where one would leave it.
+// where one would leave it. What a step of Newton's leaves is about its square.
 double QuantileOf(std::span<const NormalPart> mixture, double probability) {
   constexpr double kReach = 9.0;  // standard deviations
   constexpr int kMostSteps = 80;
-  constexpr double kDone = 1e-15;  // of the reach
+  constexpr double kDone = 1e-15, kDoneByNewton = 1e-10;  // of the reach
   const double per_sd = 1.0 / std::sqrt(2.0 * std::numbers::pi);
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
@@ -48,10 +48,11 @@ double QuantileOf(std::span<const NormalPart> mixture, double probability) {
     if (missing == 0.0) break;
     (missing > 0.0 ? low : high) = at;
     double next = density > 0.0 ? at + missing / density : high;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const bool by_newton = next > low && next < high;
+    if (!by_newton) next = 0.5 * (low + high);
     const double step = std::abs(next - at);
     at = next;
-    if (step <= kDone * reach) break;
+    if (step <= (by_newton ? kDoneByNewton : kDone) * reach) break;
   }
   return at;
 }
