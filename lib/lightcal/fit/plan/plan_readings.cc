@@ -206,8 +206,9 @@ class Planner {
   }
 
   // None where that gives no interval, or no meter could read it.
-  [[nodiscard]] std::optional<fit::ReadingTrial> Settled(const fit::ReadingTrial& guessed) const {
-    auto trial = fit::Settle(Known(), guessed);
+  [[nodiscard]] std::optional<fit::ReadingTrial> Settled(const fit::ReadingTrial& guessed,
+                                                         const fit::WorthAFit& worth = {}) const {
+    auto trial = fit::Settle(Known(), guessed, worth);
     const bool answers =
         trial && std::isfinite(trial->planned.u95_relative) && IsReadable(trial->planned);
     return answers ? trial : std::nullopt;
@@ -285,7 +286,13 @@ class Planner {
     for (const fit::ReadingTrial& guessed : trials) {
       const double most = RateOf(left, best);
       if (fit::IsNearlySettled(guessed) && rate(guessed, fit::kMostBySettling) <= most) continue;
-      const std::optional<fit::ReadingTrial> trial = Settled(guessed);
+      const auto may_be_best = [&](double u95_relative, double u95_stops) {
+        const double of_relative = std::log(left.relative / u95_relative);
+        const double of_stops = std::log(left.stops / u95_stops);
+        // NaN: both without an end.
+        return !(std::max(of_relative, of_stops) <= most * minutes && !std::isnan(of_stops));
+      };
+      const std::optional<fit::ReadingTrial> trial = Settled(guessed, may_be_best);
       if (!trial || GainOf(left, trial->planned) < kLeastGain || rate(*trial) <= most) continue;
       best = LadderStep{trial->planned, {}, minutes};
     }

@@ -105,14 +105,22 @@ bool IsNearlySettled(const ReadingTrial& trial) {
   return std::abs(trial.ln_off) < kPredictsItself;
 }
 
-std::optional<ReadingTrial> Settle(const KnownSoFar& known, ReadingTrial first) {
+std::optional<ReadingTrial> Settle(const KnownSoFar& known, ReadingTrial first,
+                                   const WorthAFit& worth) {
   constexpr double kSlowest = 0.97;
   constexpr int kMostFits = 2;
   if (first.likely) {
     const auto at = [&](std::size_t k) {
       return TryAt(known, first.planned, (*first.likely)[k].value());
     };
-    return MedianOf(at(0), first, at(2));
+    const auto low = at(0);
+    const PlannedReading& middle = first.planned;
+    const PlannedReading& beside = low ? low->planned : middle;
+    if (worth && !worth(std::min(middle.u95_relative, beside.u95_relative),
+                        std::min(middle.u95_stops, beside.u95_stops))) {
+      return std::nullopt;
+    }
+    return MedianOf(low, first, at(2));
   }
   std::optional<ReadingTrial> trial = std::move(first);
   double former_off = 0.0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 
 #include "lightcal/fit/fit_light.h"
@@ -62,6 +63,10 @@ inline constexpr double kMostBySettling = 0.45;
 // reading would change nothing: what a fit with it predicts for it, and again. Where it tells much,
 // the second answer is still drawn to the first guess, and the limit of the series is taken
 // (Aitken, in logarithms). None where a fit fails.
-[[nodiscard]] std::optional<ReadingTrial> Settle(const KnownSoFar& known, ReadingTrial trial);
+// Where not even an interval of those widths, the least that it may still be, is `worth` a further
+// fit: none too.
+using WorthAFit = std::function<bool(double u95_relative, double u95_stops)>;
+[[nodiscard]] std::optional<ReadingTrial> Settle(const KnownSoFar& known, ReadingTrial trial,
+                                                 const WorthAFit& worth = {});
 
 }  // namespace lightcal::fit
