@@ -2,9 +2,11 @@
 // The quick solver finds what the full one finds.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
+#include "lightcal/fit/model/small_cholesky.h"
 #include "lightcal/fit/model/solve.h"
 #include "lightcal/fit/model/starts.h"
 
@@ -60,6 +62,43 @@ TEST(SolveQuickly, AThousandStartsEndAtOneOptimum) {
     ASSERT_TRUE(found.has_value());
     for (int k = 0; k < kParameters; ++k) EXPECT_NEAR((*found)[k], (*best)[k], 1e-8) << i;
   }
+}
+
+// Matrices made of a known triangle: m = L L^T, b = m x.
+TEST(SolvePositive, FindsWhatMadeTheRightSide) {
+  constexpr int kMost = 6;
+  std::mt19937_64 random(10);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 600; ++i) {
+    const int n = 1 + i % kMost;
+    std::array<std::array<double, kMost>, kMost> lower{};
+    std::array<double, kMost> x{};
+    for (int a = 0; a < n; ++a) {
+      x[a] = normal(random);
+      for (int b = 0; b < a; ++b) lower[a][b] = 0.5 * normal(random);
+      lower[a][a] = std::exp(0.3 * normal(random));
+    }
+    SmallMatrix<kMost> m{};
+    std::array<double, kMost> found{};
+    for (int a = 0; a < n; ++a) {
+      for (int b = 0; b < n; ++b) {
+        double sum = 0.0;
+        for (int k = 0; k < n; ++k) sum += lower[a][k] * lower[b][k];
+        if (b <= a) m[a * kMost + b] = sum;
+        found[a] += sum * x[b];
+      }
+    }
+    ASSERT_TRUE(SolvePositive<kMost>(m, n, found)) << i;
+    for (int a = 0; a < n; ++a) EXPECT_NEAR(found[a], x[a], 1e-9) << i;
+  }
+}
+
+TEST(SolvePositive, TellsWhatIsNotPositive) {
+  SmallMatrix<3> saddle = {1.0, 0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0, 1.0};  // det of 2 x 2 is -3
+  std::array<double, 3> x = {1.0, 1.0, 1.0};
+  EXPECT_FALSE(SolvePositive<3>(saddle, 3, x));
+  SmallMatrix<3> empty{};
+  EXPECT_FALSE(SolvePositive<3>(empty, 1, x));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -22,7 +23,14 @@ constexpr double kPriorConflict = 2.0;  // prior standard deviations
 const double kLnBlunder = std::log(0.02 / std::log(150.0));
 
 void SortByProbability(std::vector<Candidate>& candidates) {
-  std::ranges::stable_sort(candidates, std::ranges::greater(), &Candidate::ln_probability);
+  std::vector<std::size_t> order(candidates.size());  // they are long to move about
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater(),
+                           [&](std::size_t i) { return candidates[i].ln_probability; });
+  std::vector<Candidate> sorted;
+  sorted.reserve(order.size());
+  for (const std::size_t i : order) sorted.push_back(std::move(candidates[i]));
+  candidates = std::move(sorted);
 }
 
 Candidate CandidateUnder(const LampHypothesis& hypothesis, const Prepared& prepared,
@@ -119,6 +127,7 @@ Result<std::vector<Candidate>> SolveEach(const Prepared& prepared, const Forward
   std::vector<Candidate> out;
   std::optional<Error> failure;
   const std::vector<LampHypothesis> hypotheses = HypothesesOf(model);
+  out.reserve(hypotheses.size());
   for (const LampHypothesis& hypothesis : hypotheses) {
     Candidate one = CandidateUnder(hypothesis, prepared, observations);
     const Theta start = StartBeside(out.empty() ? nullptr : &out.back().squared, one.estimation);

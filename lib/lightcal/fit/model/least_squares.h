@@ -22,6 +22,7 @@
 #include "lightcal/fit/model/least_squares_problem.h"
 #include "lightcal/fit/model/parameter.h"
 #include "lightcal/fit/model/polish.h"
+#include "lightcal/fit/model/small_cholesky.h"
 #include "lightcal/fit/model/truncated_normal.h"
 
 namespace lightcal::fit {
@@ -97,6 +98,22 @@ template <class P>
   return std::nullopt;
 }
 
+// m x = b over the first n rows, where m may be positive in some directions alone.
+template <int N>
+[[nodiscard]] std::array<double, N> SolveSemidefinite(const SmallMatrix<N>& m, int n,
+                                                      const std::array<double, N>& b) {
+  Eigen::Matrix<double, N, N> whole = Eigen::Matrix<double, N, N>::Identity();
+  Eigen::Matrix<double, N, 1> right = Eigen::Matrix<double, N, 1>::Zero();
+  for (int i = 0; i < n; ++i) {
+    right[i] = b[i];
+    for (int j = 0; j <= i; ++j) whole(i, j) = whole(j, i) = m[i * N + j];
+  }
+  const Eigen::Matrix<double, N, 1> x = whole.ldlt().solve(right);
+  std::array<double, N> out;
+  std::copy_n(x.data(), N, out.begin());
+  return out;
+}
+
 // The same by Newton's steps, damped where they would raise the cost; Gauss and Newton's where the
 // cost does not bend upwards. Absent where it comes to no end, or to no minimum.
 template <TellsBend P>
@@ -105,32 +122,44 @@ template <TellsBend P>
                                                        double last_step) {
   constexpr int kSteps = 40;
   constexpr double kLeastDamping = 1e-3, kMostDamping = 1e8, kDampingStep = 10.0;
+  std::array<int, P::kCount> moves{};  // the parameters that may
+  int count = 0;
+  for (int k = 0; k < P::kCount; ++k) {
+    if (problem.rules[k].free && !held[k]) moves[count++] = k;
+  }
   double damping = 0.0;
   SecondOrder<P> at = SecondOrderAt(problem, theta);
   if (!std::isfinite(at.cost)) return std::nullopt;
   for (int i = 0; i < kSteps; ++i) {
-    for (int k = 0; k < P::kCount; ++k) {
-      if (problem.rules[k].free && !held[k]) continue;
-      Hold(at.normal, k);
-      Hold(at.bend, k);
-      at.gradient[k] = 0.0;
+    ValuesOf<P> scale{}, downhill{};
+    for (int a = 0; a < count; ++a) {
+      const double curvature = at.normal(moves[a], moves[a]);
+      if (!(curvature > 0.0)) return std::nullopt;
+      scale[a] = 1.0 / std::sqrt(curvature);
+      downhill[a] = -scale[a] * at.gradient[moves[a]];
     }
-    if (!(at.normal.diagonal().minCoeff() > 0.0)) return std::nullopt;
-    const VectorOf<P> scale = at.normal.diagonal().cwiseSqrt().cwiseInverse();
-    const VectorOf<P> downhill = -(scale.asDiagonal() * at.gradient);
     const auto scaled = [&](const SquareOf<P>& curvature) {
-      SquareOf<P> out = scale.asDiagonal() * curvature * scale.asDiagonal();
-      out.diagonal().array() += damping;
+      SmallMatrix<P::kCount> out;
+      for (int a = 0; a < count; ++a) {
+        for (int b = 0; b <= a; ++b) {
+          out[a * P::kCount + b] = scale[a] * curvature(moves[a], moves[b]) * scale[b];
+        }
+        out[a * P::kCount + a] += damping;
+      }
       return out;
     };
-    const Eigen::LLT<SquareOf<P>> bent(scaled(at.bend));
-    const bool minimum = bent.info() == Eigen::Success;
-    const VectorOf<P> step =
-        minimum ? VectorOf<P>(bent.solve(downhill)) : scaled(at.normal).ldlt().solve(downhill);
-    if (!step.allFinite()) return std::nullopt;
+    ValuesOf<P> step = downhill;
+    SmallMatrix<P::kCount> bent = scaled(at.bend);
+    const bool minimum = SolvePositive<P::kCount>(bent, count, step);
+    if (!minimum) step = SolveSemidefinite<P::kCount>(scaled(at.normal), count, downhill);
     ValuesOf<P> next = theta;
-    for (int k = 0; k < P::kCount; ++k) next[k] += scale[k] * step[k];
-    const bool done = minimum && damping == 0.0 && step.cwiseAbs().maxCoeff() < last_step;
+    double longest = 0.0;
+    for (int a = 0; a < count; ++a) {
+      if (!std::isfinite(step[a])) return std::nullopt;
+      next[moves[a]] += scale[a] * step[a];
+      longest = std::max(longest, std::abs(step[a]));
+    }
+    const bool done = minimum && damping == 0.0 && longest < last_step;
     if (done) return next;
     SecondOrder<P> then = SecondOrderAt(problem, next);
     if (!(then.cost <= at.cost * (1.0 + 1e-12) + 1e-20)) {
@@ -214,41 +243,64 @@ template <class P>
   return out;
 }
 
-// Upper triangle R of the QR decomposition of rows (Givens rotations, one row at a time: O(1)
+// The upper triangle R of the QR decomposition of rows takes one row more (Givens rotations: O(1)
 // memory and as stable as Householder for weights of any span).
+template <int N>
+void RotateInto(Eigen::Matrix<double, N, N>& r, Eigen::Matrix<double, N, 1> row) {
+  for (int k = 0; k < N; ++k) {
+    if (row[k] == 0.0) continue;
+    const double square = r(k, k) * r(k, k) + row[k] * row[k];
+    const double length = std::isnormal(square) ? std::sqrt(square) : std::hypot(r(k, k), row[k]);
+    const double c = r(k, k) / length;
+    const double s = row[k] / length;
+    for (int j = k; j < N; ++j) {
+      const double upper = r(k, j);
+      r(k, j) = c * upper + s * row[j];
+      row[j] = c * row[j] - s * upper;
+    }
+  }
+}
+
 template <int N>
 [[nodiscard]] Eigen::Matrix<double, N, N> TriangleOf(
     const Eigen::Matrix<double, Eigen::Dynamic, N>& rows) {
   Eigen::Matrix<double, N, N> r = Eigen::Matrix<double, N, N>::Zero();
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    Eigen::Matrix<double, N, 1> row = rows.row(i);
-    for (int k = 0; k < N; ++k) {
-      if (row[k] == 0.0) continue;
-      const double square = r(k, k) * r(k, k) + row[k] * row[k];
-      const double length = std::isnormal(square) ? std::sqrt(square) : std::hypot(r(k, k), row[k]);
-      const double c = r(k, k) / length;
-      const double s = row[k] / length;
-      for (int j = k; j < N; ++j) {
-        const double upper = r(k, j);
-        r(k, j) = c * upper + s * row[j];
-        row[j] = c * row[j] - s * upper;
-      }
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) RotateInto<N>(r, rows.row(i));
+  return r;
+}
+
+// The triangle over the free parameters; that of a held one is the unit matrix's. The priors' rows,
+// one entry each, are a triangle already.
+template <class P>
+[[nodiscard]] SquareOf<P> FreeTriangle(const P& problem, const Linearised<P>& at) {
+  const Eigen::Index n = at.jacobian.rows() - P::kCount;
+  SquareOf<P> r = SquareOf<P>::Zero();
+  for (int k = 0; k < P::kCount; ++k) {
+    r(k, k) = problem.rules[k].free ? at.jacobian(n + k, k) : 1.0;
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    VectorOf<P> row = at.jacobian.row(i);
+    for (int k = 0; k < P::kCount; ++k) {
+      if (!problem.rules[k].free) row[k] = 0.0;
     }
+    RotateInto<P::kCount>(r, row);
   }
   return r;
 }
 
-// The triangle over the free parameters; that of a held one is the unit matrix's.
-template <class P>
-[[nodiscard]] SquareOf<P> FreeTriangle(const P& problem, const Linearised<P>& at) {
-  RowsOf<P> rows = at.jacobian;
-  const Eigen::Index n = rows.rows() - P::kCount;
-  for (int k = 0; k < P::kCount; ++k) {
-    if (problem.rules[k].free) continue;
-    rows.col(k).setZero();
-    rows(n + k, k) = 1.0;
+// R^-1 of an upper triangle.
+template <int N>
+[[nodiscard]] Eigen::Matrix<double, N, N> InverseOfTriangle(const Eigen::Matrix<double, N, N>& r) {
+  Eigen::Matrix<double, N, N> inverse = Eigen::Matrix<double, N, N>::Zero();
+  for (int j = 0; j < N; ++j) {
+    inverse(j, j) = 1.0 / r(j, j);
+    for (int i = j - 1; i >= 0; --i) {
+      double sum = 0.0;
+      for (int k = i + 1; k <= j; ++k) sum += r(i, k) * inverse(k, j);
+      inverse(i, j) = -sum / r(i, i);
+    }
   }
-  return TriangleOf<P::kCount>(rows);
+  return inverse;
 }
 
 // Inverse of J^T J of rows and priors by QR (weights may span 1e12), zero for held parameters.
@@ -257,13 +309,16 @@ template <class P>
 [[nodiscard]] std::optional<SquareOf<P>> CovarianceAt(const P& problem, const Linearised<P>& at) {
   const SquareOf<P> r = FreeTriangle(problem, at);
   if (!r.allFinite() || !(r.diagonal().cwiseAbs().minCoeff() > 1e-300)) return std::nullopt;
-  const SquareOf<P> inverse =
-      r.template triangularView<Eigen::Upper>().solve(SquareOf<P>::Identity());
-  SquareOf<P> covariance = inverse * inverse.transpose();
-  for (int k = 0; k < P::kCount; ++k) {
-    if (problem.rules[k].free) continue;
-    covariance.row(k).setZero();
-    covariance.col(k).setZero();
+  const SquareOf<P> inverse = InverseOfTriangle<P::kCount>(r);
+  SquareOf<P> covariance = SquareOf<P>::Zero();
+  for (int i = 0; i < P::kCount; ++i) {
+    if (!problem.rules[i].free) continue;
+    for (int j = 0; j <= i; ++j) {
+      if (!problem.rules[j].free) continue;
+      double sum = 0.0;
+      for (int k = i; k < P::kCount; ++k) sum += inverse(i, k) * inverse(j, k);
+      covariance(i, j) = covariance(j, i) = sum;
+    }
   }
   return covariance;
 }

@@ -25,6 +25,12 @@ auto KindOf(const ReadingRow& row) {
 
 double WeightOf(const ReadingRow& row) { return 1.0 / (row.own_sigma * row.own_sigma); }
 
+// A row that may be merged, and its logarithms, which several sums need.
+struct Mergeable {
+  const ReadingRow* row = nullptr;
+  double ln_distance = 0.0, ln_measured = 0.0;
+};
+
 struct OneRow {
   ReadingRow row;
   MergedRows::Spread spread;
@@ -43,17 +49,17 @@ struct PlaceMean {
 };
 
 // Weighted means; rows of equal sigmas keep the variance that their mean has.
-OneRow MergeStretch(std::span<const ReadingRow* const> rows) {
-  if (rows.size() == 1) return {*rows.front(), {}};
+OneRow MergeStretch(std::span<const Mergeable> rows) {
+  if (rows.size() == 1) return {*rows.front().row, {}};
   double weights = 0.0;
   double ln_distance = 0.0;
   WallsOfRow walls;
   double scatter = 0.0;
   double uneven = 0.0;
-  for (const ReadingRow* row : rows) {
+  for (const auto& [row, at, read] : rows) {
     const double weight = WeightOf(*row);
     weights += weight;
-    ln_distance += weight * std::log(row->distance);
+    ln_distance += weight * at;
     uneven += weight * weight * row->uneven * row->uneven;
     if (!row->walls) continue;
     walls.x += weight * row->walls->x;
@@ -61,19 +67,17 @@ OneRow MergeStretch(std::span<const ReadingRow* const> rows) {
     scatter += weight * weight * row->walls->scatter * row->walls->scatter;
   }
   ln_distance /= weights;
-  const auto moved = [&](const ReadingRow* row) {
-    return std::log(row->measured) + 2.0 * (std::log(row->distance) - ln_distance);
-  };
   std::vector<PlaceMean> places;
   double ln_measured = 0.0;
-  for (const ReadingRow* row : rows) {
+  for (const auto& [row, at, read] : rows) {
     const double weight = WeightOf(*row);
-    ln_measured += weight * moved(row) / weights;
+    const double moved = read + 2.0 * (at - ln_distance);
+    ln_measured += weight * moved / weights;
     const int place = row->walls ? row->walls->place : static_cast<int>(places.size());
     if (places.empty() || places.back().place != place) places.push_back({place});
-    places.back().Add(weight, std::log(row->distance), moved(row));
+    places.back().Add(weight, at, moved);
   }
-  OneRow out{*rows.front(), {static_cast<int>(places.size()) - 1, 0.0}};
+  OneRow out{*rows.front().row, {static_cast<int>(places.size()) - 1, 0.0}};
   // About a line: light from walls and offset turn them from the inverse square law.
   double xx = 0.0, xy = 0.0, yy = 0.0;
   for (const PlaceMean& one : places) {
@@ -98,23 +102,24 @@ OneRow MergeStretch(std::span<const ReadingRow* const> rows) {
 }  // namespace
 
 std::optional<MergedRows> Merge(const Estimation& estimation) {
-  std::vector<const ReadingRow*> alike;
+  std::vector<Mergeable> alike;
   MergedRows out;
   for (const ReadingRow& row : estimation.rows) {
     if (MayMerge(row)) {
-      alike.push_back(&row);
+      alike.push_back({&row, std::log(row.distance), std::log(row.measured)});
     } else {
       out.estimation.rows.push_back(row);
     }
   }
   out.spreads.resize(out.estimation.rows.size());
-  std::ranges::sort(alike, [](const ReadingRow* a, const ReadingRow* b) {
-    return std::tuple(KindOf(*a), a->distance) < std::tuple(KindOf(*b), b->distance);
+  std::ranges::sort(alike, [](const Mergeable& a, const Mergeable& b) {
+    return std::tuple(KindOf(*a.row), a.row->distance) <
+           std::tuple(KindOf(*b.row), b.row->distance);
   });
   for (auto first = alike.begin(); first != alike.end();) {
-    const ReadingRow* const nearest = *first;
-    const auto last = std::find_if(first, alike.end(), [nearest](const ReadingRow* row) {
-      return KindOf(*row) != KindOf(*nearest) || row->distance > kStretch * nearest->distance;
+    const ReadingRow& nearest = *first->row;
+    const auto last = std::find_if(first, alike.end(), [&nearest](const Mergeable& one) {
+      return KindOf(*one.row) != KindOf(nearest) || one.row->distance > kStretch * nearest.distance;
     });
     const OneRow one = MergeStretch({first, last});
     out.estimation.rows.push_back(one.row);

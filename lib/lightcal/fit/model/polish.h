@@ -70,23 +70,33 @@ template <TellsBend P>
 [[nodiscard]] SecondOrder<P> SecondOrderAt(const P& problem, const ValuesOf<P>& theta) {
   SecondOrder<P> out;
   VectorOf<P> j;
+  SquareOf<P> second;
+  AddPriors(problem, theta, out.gradient, &out.normal);
+  out.bend = out.normal;
   for (std::size_t i = 0; i < problem.RowCount(); ++i) {
     double residual = 0.0;
-    SquareOf<P> second = SquareOf<P>::Zero();
     if (!problem.Bend(i, theta.data(), &residual, j.data(), second.data())) {
       out.cost = std::numeric_limits<double>::infinity();
       out.gradient.setConstant(out.cost);
       return out;
     }
     out.cost += 0.5 * residual * residual;
-    out.normal += j * j.transpose();
-    out.bend += residual * second;
-    out.gradient += j * residual;
+    for (int a = 0; a < P::kCount; ++a) {
+      out.gradient[a] += j[a] * residual;
+      for (int b = a; b < P::kCount; ++b) {
+        const double square = j[a] * j[b];
+        out.normal(b, a) += square;
+        out.bend(b, a) += square + residual * second(b, a);
+      }
+    }
   }
   out.cost += 0.5 * PriorChiSquaredOf(problem, theta);
-  AddPriors(problem, theta, out.gradient, &out.normal);
-  out.bend += out.normal;
-  out.bend.template triangularView<Eigen::StrictlyUpper>() = out.bend.transpose();
+  for (int a = 0; a < P::kCount; ++a) {
+    for (int b = a + 1; b < P::kCount; ++b) {
+      out.normal(a, b) = out.normal(b, a);
+      out.bend(a, b) = out.bend(b, a);
+    }
+  }
   return out;
 }
 

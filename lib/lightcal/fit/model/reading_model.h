@@ -134,7 +134,7 @@ template <class T>
 }
 
 // The same with its derivatives by the first N parameters (all, or kWithoutScale), and where asked
-// its second ones (`bend`, N^2 of them, the lower triangle written; 0 beforehand).
+// its second ones (`bend`, N^2 of them, the lower triangle alone written).
 template <int N>
 [[nodiscard]] bool RowResidual(const ReadingRow& row, const double* theta, double* residual,
                                double* gradient, double* bend = nullptr);

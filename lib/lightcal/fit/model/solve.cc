@@ -167,11 +167,16 @@ bool RowResidual(const ReadingRow& row, const double* theta, double* residual, d
   gradient[kLnWalls] = by_illuminance * intensity * walls;
   gradient[kWallsSlope] = row.walls ? gradient[kLnWalls] * row.walls->x : 0.0;
   if constexpr (N > kLnScale) gradient[kLnScale] = row.scale * by_illuminance * predicted;
-  if (bend == nullptr || silent) return true;
+  if (bend == nullptr) return true;
   // Of ln E: -dE_i dE_j/E^2 + d2E_ij/E; of E the second alone, whose entries repeat the first ones.
   const Eigen::Map<const Eigen::Matrix<double, N, 1>> g(gradient);
   Eigen::Map<Eigen::Matrix<double, N, N>> second(bend);
-  if (row.form != RowForm::kLinear) second = row.sigma * g * g.transpose();
+  const double of_squares = silent || row.form == RowForm::kLinear ? 0.0 : row.sigma;
+  for (int a = 0; a < N; ++a) {
+    const double slope = of_squares * g[a];
+    for (int b = a; b < N; ++b) second(b, a) = slope * g[b];
+  }
+  if (silent) return true;
   second(kLnIntensity, kLnIntensity) += g[kLnIntensity];
   second(kDistanceOffset, kLnIntensity) += g[kDistanceOffset];
   second(kDistanceOffset, kDistanceOffset) += by_illuminance * intensity * direct.bend;
