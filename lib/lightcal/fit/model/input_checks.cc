@@ -42,6 +42,7 @@ constexpr double kFarthestIndoors = 40.0;
 constexpr double kFarthestPlace = 300.0;
 
 // Towards a beam's rim a degree of aim outweighs any unit: only its bright part is compared.
+// Towards a grazing tilt a degree of it does, and so does the walls' light, which no cosine dims.
 constexpr double kBrightPart = 0.3;
 
 bool IsBright(const Observation& row) {
@@ -66,6 +67,7 @@ std::vector<Strength> Strengths(const Observations& observations) {
   std::vector<Strength> out;
   for (const Observation& row : observations.rows) {
     const double direct = row.measured_lx - (row.differenced ? 0.0 : ambient);
+    if (std::cos(row.tilt_rad) < kBrightPart) continue;
     if (!IsBright(row) || !(direct > 2.0 * row.sigma_lx)) continue;
     out.push_back({std::log(direct * row.distance_m * row.distance_m /
                             (std::cos(row.tilt_rad) * row.emission * row.table_part)),

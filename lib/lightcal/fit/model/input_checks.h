@@ -11,9 +11,10 @@
 
 namespace lightcal::fit {
 
-// Refused: units_ambiguous when ln(E d^2) of the rows falls into two groups apart by the square of
-// a ratio of length units (cm/m: 10 000, ft/m: 10.76) or by a ratio of illuminance units
-// (fc/lx: 10.76, klx/lx: 1000). The message names the smaller group.
+// Refused: units_ambiguous when ln(E d^2/cos(tilt)) of the rows falls into two groups apart by the
+// square of a ratio of length units (cm/m: 10 000, ft/m: 10.76) or by a ratio of illuminance units
+// (fc/lx: 10.76, klx/lx: 1000). Rows at a grazing tilt, beyond 72.5 degrees, are not compared: what
+// they read is the walls' light. The message names the smaller group.
 [[nodiscard]] Result<void> CheckUnits(const Observations& observations, const std::string& light);
 
 // Refused: increasing_with_distance when the slope of ln E over ln d is above zero by two of its
