@@ -17,10 +17,18 @@ void FillMasked(std::span<const std::size_t> masked, std::size_t width, std::siz
     while (right + 1 < end && is_masked(right)) ++right;
     if (is_masked(left)) left = right;
     if (is_masked(right)) right = left;
+    // At the picture's edge what lies as far within as the hole reaches out here.
+    const std::size_t past = (left > pixel ? left - pixel : pixel - left) - 1;
+    if (left == right && left != pixel && left + past < end && left >= begin + past) {
+      const std::size_t mirrored = left > pixel ? left + past : left - past;
+      if (!is_masked(mirrored)) left = right = mirrored;
+    }
+    const bool none = is_masked(left);
+    const float share =
+        left == right ? 0.0F : static_cast<float>(pixel - left) / static_cast<float>(right - left);
     for (std::size_t c = 0; c < channels; ++c) {
-      const bool none = is_masked(left);
-      samples[pixel * channels + c] =
-          none ? 0.0F : 0.5F * (samples[left * channels + c] + samples[right * channels + c]);
+      const float a = samples[left * channels + c], b = samples[right * channels + c];
+      samples[pixel * channels + c] = none ? 0.0F : a + share * (b - a);
     }
   }
 }

@@ -11,8 +11,7 @@
 namespace lightcal {
 
 struct MaskedPicture {
-  // Masked pixels hold the mean of the nearest ones to both sides in their row that are not; 0 in a
-  // row that has none.
+  // Masked pixels hold what FillMasked makes of them.
   Frame frame;
   std::vector<std::size_t> masked;  // ascending, y * width + x: NaN, infinite or beyond 1e30
 };

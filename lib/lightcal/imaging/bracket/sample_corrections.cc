@@ -12,6 +12,8 @@ namespace lightcal {
 namespace {
 
 constexpr int kNeighboursTried = 4;
+// So many beside each other, of one colour, are bridged: of more nobody knows what they would show.
+constexpr int kMostBridged = 2;
 
 }  // namespace
 
@@ -61,18 +63,23 @@ void SampleCorrections::ReplaceHot(const SignalFrame& frame, int y, float* value
       const int at = it->second * frame.channels + c;
       const int color = channel[static_cast<std::size_t>(at % kLanes)];
       // The nearest sample of the same colour to one side that is not hot itself.
+      int lost = 1;
       const auto nearest = [&](int step) -> std::optional<int> {
         int found = 0;
         for (int x = it->second + step; x >= 0 && x < frame.width; x += step) {
           const int i = x * frame.channels + c;
           if (channel[static_cast<std::size_t>(i % kLanes)] != color) continue;
           if (!is_hot(x)) return i;
+          ++lost;
           if (++found == kNeighboursTried) break;
         }
         return std::nullopt;
       };
       const auto left = nearest(-1), right = nearest(1);
-      if (!left && !right) continue;
+      if (!left && !right) {
+        variance[at] = value[at] * value[at];
+        continue;
+      }
       const float a = value[left.value_or(right.value_or(at))];
       const float b = value[right.value_or(left.value_or(at))];
       const float var_a = variance[left.value_or(right.value_or(at))];
@@ -80,6 +87,7 @@ void SampleCorrections::ReplaceHot(const SignalFrame& frame, int y, float* value
       value[at] = 0.5F * (a + b);
       const bool both = left && right;  // on the edge one stands alone, and nothing tells the slope
       variance[at] = both ? 0.25F * (var_a + var_b + (a - b) * (a - b)) : 2.0F * var_a;
+      if (lost > kMostBridged) variance[at] += value[at] * value[at];
     }
   }
 }

@@ -32,7 +32,8 @@ class SampleCorrections {
   void SetBlackSd(double black_sd) { black_sd_ = black_sd; }
   // x, y, x, y, ...: their samples become the mean of the nearest ones of their colour in the row,
   // Var that of the mean and a quarter of their difference squared; on the picture's edge, where
-  // one stands alone, twice its Var.
+  // one stands alone, twice its Var. Where more than two lie together it is as large as the mean
+  // itself besides: what a hole would show nobody saw.
   void AddHotPixels(std::span<const int> hot_pixels);
 
   // For pictures made smaller: hot pixels that they do not show go, a mean with a hot pixel among
