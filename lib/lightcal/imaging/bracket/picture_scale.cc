@@ -97,6 +97,26 @@ bool IsClippedIn(const BracketMerger& merger, const SpotReading& spot) {
   return false;
 }
 
+// What the quarters of a spot differ by: the standard deviation of their means, relative. `width`:
+// of the rows that hold it.
+double SpreadOfQuarters(std::span<const float> luminance, std::size_t width,
+                        const SpotReading& spot) {
+  if (spot.width < 2 || spot.height < 2) return 0.0;
+  std::array<double, 4> sum{}, count{};
+  for (int y = 0; y < spot.height; ++y) {
+    for (int x = 0; x < spot.width; ++x) {
+      const std::size_t quarter = (2 * y < spot.height ? 0U : 2U) + (2 * x < spot.width ? 0U : 1U);
+      sum[quarter] +=
+          luminance[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(spot.x + x)];
+      count[quarter] += 1.0;
+    }
+  }
+  double mean = 0.0, square = 0.0;
+  for (std::size_t q = 0; q < 4; ++q) mean += sum[q] / count[q] / 4.0;
+  for (std::size_t q = 0; q < 4; ++q) square += std::pow(sum[q] / count[q] - mean, 2) / 4.0;
+  return mean > 0.0 ? std::sqrt(square) / mean : 0.0;
+}
+
 // What brings the spot's mean luminance to the reading.
 Result<PictureScale> AnchorScale(const BracketMerger& merger, const PictureRows& rows, double prior,
                                  const SpotReading& spot, double ratio_sd) {
@@ -139,9 +159,12 @@ Result<PictureScale> AnchorScale(const BracketMerger& merger, const PictureRows&
   // What a flat field leaves open is alike over the spot: it averages out of no mean.
   const auto& flat = rows.corrections.flat();
   const double flat_sd = flat ? flat->sigma_relative : 0.0;
+  const double spread = SpreadOfQuarters(luminance, static_cast<std::size_t>(frame.width), spot);
+  // A quarter of the spot aside, the meter sees half of that more or less.
+  const double place_sd = 0.5 * spread;
   return PictureScale{prior * spot.luminance.value() / mean,
-                      std::hypot(std::hypot(spot.sigma_relative, sd), ratio_sd, flat_sd),
-                      std::nullopt};
+                      std::hypot(std::hypot(spot.sigma_relative, sd, place_sd), ratio_sd, flat_sd),
+                      std::nullopt, spread};
 }
 
 // Of the light that the camera balanced for; the middle of the factor's lamps where it does not
@@ -199,6 +222,14 @@ ScaleSource ScaleSourceOf(const BracketMergeRequest& request) {
 }
 
 void WarnOfAnchor(const PictureScale& scale, const std::string& file, Warnings& warnings) {
+  constexpr double kUneven = 0.1;
+  if (scale.anchor_spread > kUneven) {
+    warnings.push_back({"anchor_uneven", file,
+                        "the quarters of the spot reading's place differ by " +
+                            PercentText(scale.anchor_spread) +
+                            " (1 sd): the meter's circle may have held more of one than of "
+                            "another; read, and name, a place that is even"});
+  }
   if (!scale.iso_nits_per_unit) return;
   constexpr double kFarSd = 4.0;
   constexpr double kUnitSd = 2.0;
@@ -249,10 +280,10 @@ Result<PictureScale> ScaleOf(const BracketMerger& merger, const PreparedFrames& 
   }
   const bool encoded = prepared.frames[0].info.meaning == SampleMeaning::kEncoded;
   const FrameInfo& info = prepared.frames[prepared.planned.order.front()].info;
-  PictureScale scale{prior, encoded ? kEncodedPriorSd : kIsoPriorSd, std::nullopt};
+  PictureScale scale{prior, encoded ? kEncodedPriorSd : kIsoPriorSd, std::nullopt, 0.0};
   if (request.camera && !request.camera->profile->scale.readings.empty()) {
     scale = {request.camera->profile->scale.full_scale_constant * PerExposure(prepared),
-             CameraScaleSigma(*request.camera, info), std::nullopt};
+             CameraScaleSigma(*request.camera, info), std::nullopt, 0.0};
   }
   scale.sd_relative = std::hypot(scale.sd_relative, prepared.planned.gauge_sd);
   scale.sd_relative = std::hypot(scale.sd_relative, FNumberSpread(info.exposure));

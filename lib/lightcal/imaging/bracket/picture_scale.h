@@ -18,10 +18,11 @@ struct PictureScale {
   double sd_relative = 0.0;
   // Of an anchored one: what the frames' ISO speed had promised; absent where they name none.
   std::optional<double> iso_nits_per_unit{};
+  double anchor_spread = 0.0;  // of an anchored one: the quarters of its place, relative, 1 sd
 };
 
 // An anchor four standard deviations off what the ISO speed promises, and what may explain it
-// (prior_conflict).
+// (prior_conflict); one whose place shows unlike light (anchor_uneven).
 void WarnOfAnchor(const PictureScale& scale, const std::string& file, Warnings& warnings);
 
 // An anchor comes before a profile's scale, and that before what ISO speeds promise.
