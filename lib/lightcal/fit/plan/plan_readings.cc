@@ -287,10 +287,9 @@ class Planner {
       const double most = RateOf(left, best);
       if (fit::IsNearlySettled(guessed) && rate(guessed, fit::kMostBySettling) <= most) continue;
       const auto may_be_best = [&](double u95_relative, double u95_stops) {
-        const double of_relative = std::log(left.relative / u95_relative);
-        const double of_stops = std::log(left.stops / u95_stops);
-        // NaN: both without an end.
-        return !(std::max(of_relative, of_stops) <= most * minutes && !std::isnan(of_stops));
+        const double of_stops = std::log(left.stops / u95_stops);  // NaN: both without an end
+        return std::isnan(of_stops) ||
+               std::max(of_stops, std::log(left.relative / u95_relative)) > most * minutes;
       };
       const std::optional<fit::ReadingTrial> trial = Settled(guessed, may_be_best);
       if (!trial || GainOf(left, trial->planned) < kLeastGain || rate(*trial) <= most) continue;
@@ -332,16 +331,6 @@ class Planner {
   std::optional<PlannedReading> stands_;  // where the meter does
 };
 
-}  // namespace
-
-std::optional<double> RelativeUncertainty(const FittedLight& light) {
-  const auto& u = light.intensity_cd ? light.intensity_cd : light.illuminance_lx;
-  if (!u || !(u->value > 0.0)) return std::nullopt;
-  return (u->low && u->high ? 0.5 * (*u->high - *u->low) : u->u95) / u->value;
-}
-
-namespace {
-
 // Of illuminance alone: what is planned is no colour.
 SessionReading Colorless(SessionReading row) {
   row.reading.cct.reset();
@@ -368,6 +357,12 @@ Result<Session> AloneIn(const Session& session, const std::string& light) {
 }
 
 }  // namespace
+
+std::optional<double> RelativeUncertainty(const FittedLight& light) {
+  const auto& u = light.intensity_cd ? light.intensity_cd : light.illuminance_lx;
+  if (!u || !(u->value > 0.0)) return std::nullopt;
+  return (u->low && u->high ? 0.5 * (*u->high - *u->low) : u->u95) / u->value;
+}
 
 bool SameStep(const PlannedReading& a, const PlannedReading& b) {
   return a.action == b.action && a.distance == b.distance && a.position_m == b.position_m &&
