@@ -8,14 +8,18 @@ namespace {
 
 constexpr std::uint64_t kOrdinarySeed = 20261122;
 constexpr std::uint64_t kUnseenSeed = 77003141;
+constexpr std::uint64_t kByWallsSeed = 30081999;
+// m between a lamp that stands by walls and each of them.
+constexpr double kLeastFromWall = 0.15, kMostFromWall = 2.0;
 constexpr double kFree = 0.2;  // m between a meter or a lamp and any surface
 
-// Whether the way from the lamp to `to` keeps clear of walls and furniture.
-bool Clear(const Room& room, const Vec3& from, const Vec3& to) {
+// Whether the way from the lamp to `to` keeps clear of walls, from `first` of its 60 parts on, and
+// of furniture.
+bool Clear(const Room& room, const Vec3& from, const Vec3& to, int first = 1) {
   for (int step = 0; step <= 60; ++step) {
     const Vec3 at = from + (step / 60.0) * (to - from);
     for (int i = 0; i < 3; ++i) {
-      if (step > 0 && (at[i] < kFree || at[i] > room.size[i] - kFree)) return false;
+      if (step >= first && (at[i] < kFree || at[i] > room.size[i] - kFree)) return false;
     }
     for (const Box& box : room.boxes) {
       bool outside = false;
@@ -89,22 +93,36 @@ void AddGloss(Random& random, Room* room) {
   room->glossy_f0 = random.LogBetween(0.04, 0.3);  // lacquer to metal paint
 }
 
+enum class Standing { kAnywhere, kInCorner, kByWalls };
+
+// Nearer to the one wall of a pair or to the other.
+double FromWall(Random& random, double side) {
+  const double near = random.LogBetween(kLeastFromWall, std::min(kMostFromWall, 0.5 * side));
+  return random.Share() < 0.5 ? near : side - near;
+}
+
 // Where the lamp is, and which way its meter stands. False: not so in this room.
-bool PlaceLamp(Random& random, bool in_corner, LitRoom* lit) {
+bool PlaceLamp(Random& random, Standing standing, LitRoom* lit) {
   const Room& room = lit->room;
   Lamp& lamp = lit->lamp;
+  const bool in_corner = standing == Standing::kInCorner;
+  const bool by_walls = standing == Standing::kByWalls;
   const bool down = !in_corner && random.Share() < 0.15;
   const double from_wall = in_corner ? 0.25 : 0.45;
   for (int k = 0; k < 2; ++k) {
     const double near = random.Between(0.22, 0.4);
     lamp.place[k] = random.Between(from_wall, room.size[k] - from_wall);
     if (in_corner) lamp.place[k] = random.Share() < 0.5 ? near : room.size[k] - near;
+    if (by_walls) lamp.place[k] = FromWall(random, room.size[k]);
   }
   double lowest = 0.0, highest = 0.0;  // elevation of the meter's line, degrees
   if (lamp.kind == LampKind::kBulb) {
     const bool pendant = random.Share() < 0.6;
     lamp.place[2] =
         pendant || down ? room.size[2] - random.Between(0.25, 0.9) : random.Between(0.6, 1.6);
+    if (by_walls && (pendant || down)) {
+      lamp.place[2] = room.size[2] - random.LogBetween(kLeastFromWall, 0.5 * room.size[2]);
+    }
     lowest = pendant ? -45.0 : -15.0;
     highest = pendant ? 0.0 : 20.0;
     lamp.base = {0, 0, pendant || down ? 1.0 : -1.0};
@@ -137,7 +155,9 @@ bool PlaceLamp(Random& random, bool in_corner, LitRoom* lit) {
   }
   lit->reach = 0.0;
   for (const double d : kDistances) {
-    if (Clear(room, lamp.place, lamp.place + d * lamp.towards)) lit->reach = d;
+    // Walls are plane: where lamp and meter keep clear of them, so does what is between.
+    const Vec3 meter = lamp.place + d * lamp.towards;
+    if (Clear(room, lamp.place, meter, by_walls ? 60 : 1)) lit->reach = d;
   }
   return lit->reach >= (down ? 1.5 : 2.0);
 }
@@ -161,7 +181,7 @@ LitRoom OneOfThree(int number) {
       lit.lamp.kind = static_cast<LampKind>(k);
       bool fits = false;
       for (int again = 0; again < 60 && !fits; ++again) {
-        fits = PlaceLamp(random, false, &lit) && lit.reach >= 3.0;
+        fits = PlaceLamp(random, Standing::kAnywhere, &lit) && lit.reach >= 3.0;
       }
       placed += fits ? 1 : 0;
       if (k == number % kLamps) wanted = lit;
@@ -173,14 +193,16 @@ LitRoom OneOfThree(int number) {
 }  // namespace
 
 std::string_view NameOf(Family family) {
-  constexpr std::string_view kNames[] = {"ordinary", "unseen", "three_lamps"};
+  constexpr std::string_view kNames[] = {"ordinary", "unseen", "three_lamps", "by_walls"};
   return kNames[static_cast<int>(family)];
 }
 
 LitRoom RandomRoom(Family family, int number) {
   if (family == Family::kThreeLamps) return OneOfThree(number);
   const bool unseen = family == Family::kUnseen;
-  Random random((unseen ? kUnseenSeed : kOrdinarySeed) + 1000003ULL * number);
+  const bool by_walls = family == Family::kByWalls;
+  Random random((unseen ? kUnseenSeed : (by_walls ? kByWallsSeed : kOrdinarySeed)) +
+                1000003ULL * number);
   for (;;) {
     LitRoom lit;
     lit.lamp.kind = static_cast<LampKind>(number % 3);
@@ -196,9 +218,12 @@ LitRoom RandomRoom(Family family, int number) {
       if (window) AddWindow(random, &lit.room);
       if (gloss) AddGloss(random, &lit.room);
     }
+    const Standing standing = by_walls     ? Standing::kByWalls
+                              : lit.corner ? Standing::kInCorner
+                                           : Standing::kAnywhere;
     // Most lines are read to 3 m, as far as the room has the place.
     for (int attempt = 0; attempt < 60; ++attempt) {
-      if (PlaceLamp(random, lit.corner, &lit) && (lit.reach >= 3.0 || attempt > 20)) return lit;
+      if (PlaceLamp(random, standing, &lit) && (lit.reach >= 3.0 || attempt > 20)) return lit;
     }
   }
 }

@@ -20,6 +20,10 @@ enum class Family {
   // Rooms of the ordinary kind with three lamps in each, number 3 n + k being the k-th of room n.
   // Every meter has its 3 m.
   kThreeLamps,
+  // Rooms of the ordinary kind, the lamp where people put lamps: .15 to 2 m from the nearer wall of
+  // each pair, every factor as often as another; bulbs that hang .15 m to half the height below the
+  // ceiling.
+  kByWalls,
 };
 std::string_view NameOf(Family family);
 

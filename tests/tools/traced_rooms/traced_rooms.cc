@@ -2,6 +2,7 @@
 // Illuminance in random rooms, traced: truth for the intervals of `lightcal fit` that comes from
 // outside. Nothing here includes a header of lightcal. See README.md here.
 //   traced_rooms ORDINARY UNSEEN THREE  a table of so many rooms of each family, to standard output
+//   traced_rooms --by_walls N           a table of N rooms whose lamps stand by their walls
 //   traced_rooms --places ORDINARY UNSEEN  bulbs and panels read at seven places about them
 //   traced_rooms --colours ORDINARY UNSEEN  what painted walls give at eight wavelengths
 //   traced_rooms --lit_walls ORDINARY UNSEEN  what the room gives a wall that a lamp is turned to
@@ -69,13 +70,14 @@ void PrintRoom(Family family, int number) {
   std::fflush(stdout);
 }
 
-int PrintTable(int ordinary, int unseen, int three_lamps) {
+int PrintTable(int ordinary, int unseen, int three_lamps, int by_walls) {
   std::printf("%s", kHead);
   for (const double d : kDistances) std::printf(",direct_%g,wall_%g,card_%g", d, d, d);
   std::printf("\n");
   for (int i = 0; i < ordinary; ++i) PrintRoom(Family::kOrdinary, i);
   for (int i = 0; i < unseen; ++i) PrintRoom(Family::kUnseen, i);
   for (int i = 0; i < 3 * three_lamps; ++i) PrintRoom(Family::kThreeLamps, i);
+  for (int i = 0; i < by_walls; ++i) PrintRoom(Family::kByWalls, i);
   return 0;
 }
 
@@ -267,9 +269,10 @@ int Compare(const char* path, int every) {
     std::vector<std::string> cells;
     std::stringstream cut(line);
     for (std::string cell; std::getline(cut, cell, ',');) cells.push_back(cell);
-    const Family family = cells[0] == "ordinary" ? Family::kOrdinary
-                          : cells[0] == "unseen" ? Family::kUnseen
-                                                 : Family::kThreeLamps;
+    const Family family = cells[0] == "ordinary"   ? Family::kOrdinary
+                          : cells[0] == "unseen"   ? Family::kUnseen
+                          : cells[0] == "by_walls" ? Family::kByWalls
+                                                   : Family::kThreeLamps;
     const int number = std::atoi(cells[1].c_str());
     const TraceAnswer answer =
         TraceRoom(RandomRoom(family, number), 9000000ULL + number, {0.02, 1 << 14, 1 << 17});
@@ -299,6 +302,9 @@ int main(int argc, char** argv) {
   if (argc == 2 && std::strcmp(argv[1], "--check") == 0) {
     return traced_rooms::ClosedFormsHold() ? 0 : 1;
   }
+  if (argc == 3 && std::strcmp(argv[1], "--by_walls") == 0) {
+    return traced_rooms::PrintTable(0, 0, 0, std::atoi(argv[2]));
+  }
   if (argc == 4 && std::strcmp(argv[1], "--places") == 0) {
     return traced_rooms::PrintPlaces(std::atoi(argv[2]), std::atoi(argv[3]));
   }
@@ -315,11 +321,12 @@ int main(int argc, char** argv) {
     return traced_rooms::Compare(argv[2], std::atoi(argv[3]));
   }
   if (argc == 4 && argv[1][0] != '-') {
-    return traced_rooms::PrintTable(std::atoi(argv[1]), std::atoi(argv[2]), std::atoi(argv[3]));
+    return traced_rooms::PrintTable(std::atoi(argv[1]), std::atoi(argv[2]), std::atoi(argv[3]), 0);
   }
   std::fprintf(
       stderr,
-      "traced_rooms ORDINARY UNSEEN THREE | --places ORDINARY UNSEEN | --colours ORDINARY "
+      "traced_rooms ORDINARY UNSEEN THREE | --by_walls N | --places ORDINARY UNSEEN | --colours "
+      "ORDINARY "
       "UNSEEN | --lit_walls ORDINARY UNSEEN | --lit_wall_colours ORDINARY UNSEEN | --describe N | "
       "--check | --compare TABLE EVERY\n");
   return 2;
