@@ -34,6 +34,13 @@ const Family kPanel = {{std::log(0.037), 0.45, -0.45, 0.55, -0.37, 0.14},
                        0.31,
                        kPi,
                        {-6.40, 1.00, 0.30, 0.75, -0.80, 0.15}};
+// Where those near walls are told by themselves: as unlike each other as in traced rooms.
+const Family kBulbAwayFromWalls = [] {
+  Family out = kBulb;
+  out.prior.sd_ln_b = 0.39;
+  out.prior.sd_slope = 0.30;
+  return out;
+}();
 // Of unknown angle.
 const Family kBeam = {{std::log(0.0033), 1.25, 0.60, 0.45, 0.0, 0.25},
                       0.0082,
@@ -130,18 +137,30 @@ const Family* FamilyOf(const LampSpread& lamp) {
   return nullptr;
 }
 
-// Lamps stand anywhere on a floor, of which a third lies within half a metre of a wall (rooms of
-// 3-8 x 3-7 m) and one part in thirty of two, where people rather put them; or hang in the middle:
-// one in five is near a wall, one in twenty in a corner. Such walls are Lambertian images of the
-// lamp, whose light adds most where the meter is nearest: more b3 and the slopes below are their
-// integrals (tests/bench/rooms/near_wall.py), not figures of the rooms that judge. One room in
-// twenty is not ordinary: a hall or a black studio, that nobody mentioned (no traced room is).
+// Lamps near one wall and in a corner, whose walls' light has laws of its own.
+struct PlaceShares {
+  double near = 0.0, corner = 0.0;
+};
+// Of lamps that stand anywhere on a floor a third lies within half a metre of a wall (rooms of
+// 3-8 x 3-7 m) and one part in thirty of two, where people rather put them; or they hang in the
+// middle.
+constexpr PlaceShares kAnyPlace{0.20, 0.05};
+// Of lamps that nobody names every third stands by walls, and two in three of these have a second
+// surface within half a metre: another wall, the ceiling, a table (traced_rooms --by_walls: as many
+// of two as of one). Near one alone a bulb is much as ordinary ones are, of which most hang under
+// the ceiling.
+constexpr PlaceShares kOfUnnamed{0.12, 0.22};
+
+// Walls nearby are Lambertian images of the lamp, whose light adds most where the meter is nearest:
+// more b3 and the slopes below are their integrals (tests/bench/rooms/near_wall.py), not figures of
+// the rooms that judge. One room in twenty is not ordinary: a hall or a black studio, that nobody
+// mentioned (no traced room is).
 std::vector<WallHypothesis> PlacesOf(const Family& family, std::optional<double> flux,
-                                     const Around& around) {
-  constexpr double kNear = 0.20, kCorner = 0.05, kFar = 0.05;
+                                     const Around& around, const PlaceShares& shares = kAnyPlace) {
+  constexpr double kFar = 0.05;
   const WallPrior prior = PriorOf(family, flux, around);
   if (family.flux == 0.0 || around.open) return {{1.0, prior}};
-  const bool bulb = &family == &kBulb;
+  const bool bulb = family.flux > kLeastOfBulb;
   const auto beside_walls = [&](double more_ln_b, double slope) {
     WallPrior beside = prior;
     beside.ln_b += more_ln_b;
@@ -157,10 +176,10 @@ std::vector<WallHypothesis> PlacesOf(const Family& family, std::optional<double>
   far.sd_ln_b = kSdOfFar;
   if (bulb) far.slope = kSlopeOfFar;
   constexpr double kOrdinary = 1.0 - kFar;
-  return {{(1.0 - kNear - kCorner) * kOrdinary, prior},
+  return {{(1.0 - shares.near - shares.corner) * kOrdinary, prior},
           {kFar, far},
-          {kNear * kOrdinary, near},
-          {kCorner * kOrdinary, corner}};
+          {shares.near * kOrdinary, near},
+          {shares.corner * kOrdinary, corner}};
 }
 
 // What a lamp of unstated size may measure; 0 = as small as a point.
@@ -202,7 +221,7 @@ std::vector<WallHypothesis> OfSomeSize(const std::vector<WallHypothesis>& places
 std::vector<WallHypothesis> OfAnyMake(const Around& around) {
   const auto offset_of = [](Fixture fixture) { return OffsetParts(fixture).front(); };
   const auto shines_all_round = [&](double weight, Fixture fixture) {
-    std::vector<WallHypothesis> places = PlacesOf(kBulb, {}, around);
+    std::vector<WallHypothesis> places = PlacesOf(kBulbAwayFromWalls, {}, around, kOfUnnamed);
     for (WallHypothesis& one : places) {
       one.weight *= weight;
       one.offset = offset_of(fixture);

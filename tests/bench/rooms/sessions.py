@@ -132,7 +132,12 @@ def summary(lamps, answers):
             f" {100 * half:9.1f} % {len(lamps) - len(fitted):8d} {int(np.sum(rejected > 0)):9d}")
 
 
+def held(lamps, answers):
+    """Share of the lamps that the interval holds; a refusal holds nothing."""
+    holds = [not isinstance(a, str) and a[0] <= lamp.truth <= a[2] for lamp, a in zip(lamps, answers)]
+    return sum(holds) / len(lamps)
+
+
 def below(lamps, answers, bar):
-    """Whether the interval holds the lamp less often than `bar`, beyond chance; a refusal holds nothing."""
-    held = sum(not isinstance(a, str) and a[0] <= lamp.truth <= a[2] for lamp, a in zip(lamps, answers))
-    return held / len(lamps) < bar - 3 * math.sqrt(bar * (1 - bar) / len(lamps))
+    """Whether they are held less often than `bar`, beyond chance."""
+    return held(lamps, answers) < bar - 3 * math.sqrt(bar * (1 - bar) / len(lamps))
