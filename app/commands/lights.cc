@@ -134,7 +134,8 @@ Result<LibraryLight> OneCalled(const std::string& name, std::vector<LibraryLight
   }
   const std::string files = Joined(
       exact, ", ", [](const LibraryLight& entry) { return fs::path(entry.path).stem().string(); });
-  return Refused("several_lights", name, "is the name of several; say which: " + files);
+  return Refused("several_lights", name,
+                 "is found in several (" + files + "): give the name of one");
 }
 
 Result<void> Show(const LightsOptions& options, Console& console) {

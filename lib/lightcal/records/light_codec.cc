@@ -303,6 +303,10 @@ static Result<LightFile> LightsOfDocument(std::string_view text, std::string_vie
   if (!preset_schema.empty() && node->TextAt("schema") == preset_schema) {
     return records::LightsOfPreset(*node, where);
   }
+  if (node->TextAt("schema").starts_with("lightcal.preset/")) {
+    return Refused("bad_light", std::string(where),
+                   "is a preset, made of a light.json for engines; give that light.json");
+  }
   records::ReadingOfFile reading{std::string(where), "bad_light", records::PlaceStyle::kJson,
                                  std::nullopt};
   records::FieldReader reader(*node, "", reading);
