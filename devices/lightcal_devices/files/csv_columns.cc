@@ -10,6 +10,7 @@
 #include "lightcal/core/nearest_word.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/records/fixture_state.h"
 
 namespace lightcal::devices::files {
 namespace {
@@ -84,6 +85,10 @@ constexpr std::array kOtherNames = {
     KnownName{"lambda_a", CsvQuantity::kWavelength, 0.1},
     KnownName{"wavelength_angstrom", CsvQuantity::kWavelength, 0.1},
     KnownName{"angstrom", CsvQuantity::kWavelength, 0.1},
+    KnownName{"timestamp", CsvQuantity::kTimestamp},
+    KnownName{"time_stamp", CsvQuantity::kTimestamp},
+    KnownName{"datetime", CsvQuantity::kTimestamp},
+    KnownName{"date_time", CsvQuantity::kTimestamp},
     KnownName{"distance", CsvQuantity::kNeedsUnit},
     KnownName{"dist", CsvQuantity::kNeedsUnit},
     KnownName{"d", CsvQuantity::kNeedsUnit},
@@ -203,6 +208,23 @@ std::optional<CsvColumn> SpectralColumn(const std::string& simple,
   return std::nullopt;
 }
 
+// dimmer, "Level (%)", intensity_percent: what the lamp was dimmed to.
+std::optional<CsvColumn> DimmerColumn(const std::string& simple, std::vector<Token> tokens) {
+  constexpr std::array<std::string_view, 5> kWords = {"dimmer", "dim", "level", "intensity",
+                                                      "brightness"};
+  if (tokens.empty()) return std::nullopt;
+  bool percent = simple.find('%') != std::string::npos;
+  if (tokens.size() > 1 && (tokens.back().text == "percent" || tokens.back().text == "pct")) {
+    percent = true;
+    tokens.pop_back();
+  }
+  const std::string& word = tokens.front().text;
+  if (tokens.size() != 1 || std::ranges::find(kWords, word) == kWords.end()) return std::nullopt;
+  if (percent) return CsvColumn{CsvQuantity::kState, 1.0, simple, std::string(kDimmerControl)};
+  if (word != kDimmerControl) return std::nullopt;
+  return CsvColumn{CsvQuantity::kDimmerUnsaid, 1.0, simple, std::string(kDimmerControl)};
+}
+
 }  // namespace
 
 CsvColumn ColumnFromName(std::string_view name) {
@@ -215,6 +237,10 @@ CsvColumn ColumnFromName(std::string_view name) {
   constexpr std::string_view kState = "state.";
   if (simple.size() > kState.size() && LowerAscii(simple).starts_with(kState)) {
     return {CsvQuantity::kState, 1.0, std::string(name), simple.substr(kState.size())};
+  }
+  if (auto dimmer = DimmerColumn(simple, tokens)) {
+    dimmer->written = name;
+    return *dimmer;
   }
   const std::string joined = Joined(tokens, "_", &Token::text);
   const KnownName* known = Lookup(kScalarNames, joined);

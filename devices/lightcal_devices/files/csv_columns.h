@@ -30,9 +30,11 @@ enum class CsvQuantity {
   kLight,
   kMeter,
   kTime,
+  kTimestamp,  // a time where every cell is one (csv_table.h)
   kLamp,
   kShadowCard,
-  kState,  // a control of the lamp, its name in series
+  kState,         // a control of the lamp, its name in series
+  kDimmerUnsaid,  // the dimmer, in percent unless no value is above 1 (csv_table.h)
   kWavelength,
   kIrradiance,
   kRelative,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <ranges>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
@@ -180,12 +181,62 @@ void WarnOfThousands(CsvTable& table, char delimiter) {
   }
 }
 
+// A column named timestamp is the reading's time where every cell tells one and no other column
+// does; one named dimmer is in percent unless it may be parts of 1.
+Result<void> SettleByCells(CsvTable& table) {
+  const auto cells = [&](std::size_t column) {
+    return table.rows | std::views::transform([column](const Row& row) {
+             return TrimBlanks(CellAt(row, column));
+           }) |
+           std::views::filter([](std::string_view cell) { return !cell.empty(); });
+  };
+  const bool timed = std::ranges::find(table.columns, CsvQuantity::kTime, &CsvColumn::quantity) !=
+                     table.columns.end();
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    CsvColumn& column = table.columns[i];
+    if (column.quantity == CsvQuantity::kTimestamp) {
+      const bool told = !timed && std::ranges::all_of(cells(i), [](std::string_view cell) {
+        return !TimeOfCell(cell).empty();
+      });
+      column.quantity = told ? CsvQuantity::kTime : CsvQuantity::kUnknown;
+    }
+    if (column.quantity != CsvQuantity::kDimmerUnsaid) continue;
+    column.quantity = CsvQuantity::kState;
+    // A fraction, and nothing above 1 or in percent by its own sign.
+    const bool parts_of_one = std::ranges::all_of(cells(i),
+                                                  [&](std::string_view cell) {
+                                                    const auto number =
+                                                        ParseNumber(cell, table.decimal_comma);
+                                                    return number && *number <= 1.0;
+                                                  }) &&
+                              std::ranges::any_of(cells(i), [&](std::string_view cell) {
+                                return ParseNumber(cell, table.decimal_comma).value_or(0.0) > 0.0;
+                              });
+    if (parts_of_one) {
+      return Refused("units_ambiguous", table.name + ", column " + column.written,
+                     "holds no value above 1: are they parts of 1, or percent? Write percent, and "
+                     "name it state.dimmer");
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 bool IsWord(CsvQuantity quantity) {
   return quantity == CsvQuantity::kLight || quantity == CsvQuantity::kMeter ||
          quantity == CsvQuantity::kTime || quantity == CsvQuantity::kLamp ||
-         quantity == CsvQuantity::kShadowCard || quantity == CsvQuantity::kState;
+         quantity == CsvQuantity::kShadowCard || quantity == CsvQuantity::kState ||
+         quantity == CsvQuantity::kTimestamp || quantity == CsvQuantity::kDimmerUnsaid;
+}
+
+std::string TimeOfCell(std::string_view cell) {
+  const bool year_first = cell.size() >= 10 && (cell[4] == '-' || cell[4] == '/');
+  if (year_first) return IsoTime(cell, DateOrder::kYearFirst);
+  // 01.03.2026 is the first of March wherever points are written; 01/03/2026 either.
+  const std::size_t date = cell.find_first_not_of("0123456789.");
+  const std::string_view day_first = cell.substr(0, date);
+  return std::ranges::count(day_first, '.') == 2 ? IsoTime(cell, DateOrder::kDayFirst) : "";
 }
 
 bool IsLeftOut(CsvQuantity quantity) {
@@ -234,6 +285,7 @@ Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name) 
                        "; numbers with a decimal comma need ';' between the columns");
   }
   table.decimal_comma = HasDecimalComma(table, delimiter);
+  if (auto settled = SettleByCells(table); !settled) return Propagate(std::move(settled));
   WarnOfThousands(table, delimiter);
   return table;
 }
@@ -262,6 +314,7 @@ Result<CsvTable> TableOfColumns(std::string_view text, std::string_view name,
   table.rows = *std::move(rows);
   table.decimal_comma = HasDecimalComma(table, delimiter);
   if (auto dropped = DropTitles(table); !dropped) return Propagate(std::move(dropped));
+  if (auto settled = SettleByCells(table); !settled) return Propagate(std::move(settled));
   WarnOfThousands(table, delimiter);
   if (const Row* const wide = RowTooWide(table)) {
     return Refused("unknown_column", AtLine(table.name, wide->line),

@@ -67,13 +67,25 @@ struct GelTable {
   std::optional<std::size_t> id, name;
   std::array<std::optional<std::size_t>, 6> claims;  // tungsten Y, x, y, daylight Y, x, y
   std::vector<std::pair<std::size_t, WavelengthColumn>> wavelengths;
+  bool decimal_comma = false;
 };
 
-GelTable TableOf(const Row& header) {
+// Between tabs or semicolons a number such as 0,5 has a decimal comma.
+bool HasDecimalComma(const std::vector<Row>& rows, char delimiter) {
+  if (delimiter == ',') return false;
+  return std::ranges::any_of(rows.begin() + 1, rows.end(), [](const Row& row) {
+    return std::ranges::any_of(row.cells, [](const std::string& cell) {
+      return cell.find(',') != std::string::npos && ParseNumber(cell, true).has_value();
+    });
+  });
+}
+
+GelTable TableOf(const Row& header, bool decimal_comma) {
   constexpr std::array<std::string_view, 6> kClaims = {"tungsten_y_percent", "tungsten_x",
                                                        "tungsten_y",         "daylight_y_percent",
                                                        "daylight_x",         "daylight_y"};
   GelTable table;
+  table.decimal_comma = decimal_comma;
   for (std::size_t i = 0; i < header.cells.size(); ++i) {
     const std::string name = LowerAscii(TrimBlanks(header.cells[i]));
     if (name == "filter" || name == "id" || name == "number" || name == "gel") table.id = i;
@@ -90,15 +102,16 @@ std::optional<GelClaim> ClaimOf(const GelTable& table, const Row& row, std::size
   std::array<double, 3> values{};
   for (std::size_t i = 0; i < values.size(); ++i) {
     const auto column = table.claims[first + i];
-    const auto value = column ? ParseNumber(CellAt(row, *column)) : std::nullopt;
+    const auto value =
+        column ? ParseNumber(CellAt(row, *column), table.decimal_comma) : std::nullopt;
     if (!value) return std::nullopt;
     values[i] = *value;
   }
   return GelClaim{values[0], {values[1], values[2]}};
 }
 
-Result<GelSet> RowsOfGels(const std::vector<Row>& rows, std::string_view name) {
-  const GelTable table = TableOf(rows.front());
+Result<GelSet> RowsOfGels(const std::vector<Row>& rows, bool decimal_comma, std::string_view name) {
+  const GelTable table = TableOf(rows.front(), decimal_comma);
   GelSet set;
   for (std::size_t r = 1; r < rows.size(); ++r) {
     const Row& row = rows[r];
@@ -112,7 +125,7 @@ Result<GelSet> RowsOfGels(const std::vector<Row>& rows, std::string_view name) {
     for (const auto& [column, wavelength] : table.wavelengths) {
       const std::string_view cell = CellAt(row, column);
       if (TrimBlanks(cell).empty()) continue;  // the maker gives none there
-      const auto value = ParseNumber(cell);
+      const auto value = ParseNumber(cell, decimal_comma);
       if (!value) {
         return BadGels(where, "'" + std::string(cell.substr(0, 40)) + "' in the column " +
                                   rows.front().cells[column] + " is no number");
@@ -132,8 +145,8 @@ Result<GelSet> RowsOfGels(const std::vector<Row>& rows, std::string_view name) {
 
 // ---- a column a filter ----
 
-Result<GelSet> ColumnsOfGels(const std::vector<Row>& rows, std::size_t wavelength,
-                             std::string_view name) {
+Result<GelSet> ColumnsOfGels(const std::vector<Row>& rows, bool decimal_comma,
+                             std::size_t wavelength, std::string_view name) {
   constexpr std::string_view kQuantity = "transmittance";
   GelSet set;
   const Row& header = rows.front();
@@ -153,8 +166,8 @@ Result<GelSet> ColumnsOfGels(const std::vector<Row>& rows, std::size_t wavelengt
     while (!gel.id.empty() && (gel.id.back() == '_' || gel.id.back() == ' ')) gel.id.pop_back();
     if (gel.id.empty()) gel.id = std::filesystem::path(name).stem().string();
     for (std::size_t r = 1; r < rows.size(); ++r) {
-      const auto nm = ParseNumber(CellAt(rows[r], wavelength));
-      const auto value = ParseNumber(CellAt(rows[r], column));
+      const auto nm = ParseNumber(CellAt(rows[r], wavelength), decimal_comma);
+      const auto value = ParseNumber(CellAt(rows[r], column), decimal_comma);
       if (!nm || !value) {
         return BadGels(files::AtLine(name, rows[r].line), "holds no number for " + written);
       }
@@ -200,17 +213,19 @@ Result<GelSet> GelsOfTable(std::string_view text, std::string_view name) {
   });
   if (rows->size() < 2)
     return BadGels(name, "holds no filter; understood are " + std::string(kGelForms));
+  const bool decimal_comma = HasDecimalComma(*rows, delimiter);
   const auto& header = rows->front().cells;
   const auto wavelength = std::ranges::find_if(header, [](const std::string& cell) {
     const std::string lower = LowerAscii(TrimBlanks(cell));
     return lower == "wavelength_nm" || lower == "nm" || lower == "wavelength [nm]";
   });
   if (wavelength != header.end()) {
-    return ColumnsOfGels(*rows, static_cast<std::size_t>(wavelength - header.begin()), name);
+    return ColumnsOfGels(*rows, decimal_comma,
+                         static_cast<std::size_t>(wavelength - header.begin()), name);
   }
   const bool by_row = std::ranges::any_of(
       header, [](const std::string& cell) { return WavelengthColumnOf(cell).has_value(); });
-  if (by_row) return RowsOfGels(*rows, name);
+  if (by_row) return RowsOfGels(*rows, decimal_comma, name);
   return BadGels(name, "is no table of filters; understood are " + std::string(kGelForms));
 }
 

@@ -20,10 +20,31 @@ namespace {
 
 tl::unexpected<Error> NotANumber(const CsvTable& table, const Row& row, std::size_t column,
                                  std::string_view code) {
+  std::string with_comma(TrimBlanks(CellAt(row, column)));
+  const bool of_points = table.decimal_comma && ParseNumber(with_comma).has_value();
+  std::ranges::replace(with_comma, '.', ',');
   return Refused(std::string(code), AtLine(table.name, row.line),
                  "'" + std::string(CellAt(row, column).substr(0, 40)) + "' in the column " +
                      table.columns[column].written + " is no finite number" +
-                     (IsOverloadWord(CellAt(row, column)) ? "; " + std::string(kWriteALimit) : ""));
+                     (IsOverloadWord(CellAt(row, column)) ? "; " + std::string(kWriteALimit) : "") +
+                     (of_points ? "; the decimals of this file are commas: write " + with_comma +
+                                      ", or a thousand without a point"
+                                : ""));
+}
+
+// What a column's name would be if it held a control: state.mode.
+std::string OfAControl(std::string_view written) {
+  std::string name = "state.";
+  for (const char c : TrimBlanks(written)) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    name += letter ? c : '_';
+  }
+  const std::string lower = LowerAscii(name);
+  const bool dimmer = std::ranges::any_of(std::array{"dim", "level", "bright"}, [&](auto word) {
+    return lower.find(word) != std::string::npos;
+  });
+  if (dimmer) return " (to state.dimmer, 0 to 100, if it is what the lamp was dimmed to)";
+  return " (to " + name + " if it is a control of the lamp)";
 }
 
 // A quantity whose unit is not said is never guessed.
@@ -46,15 +67,17 @@ Result<Warnings> CheckColumns(const CsvTable& table) {
         table.rows, [&](const Row& row) { return NumberAt(table, row, i).has_value(); });
     if (numbers) {
       const std::string nearest = NearestColumnName(column.written);
-      return Refused(
-          "units_ambiguous", table.name + ", column " + column.written,
-          "is not known" + (nearest.empty() ? "." : "; did you mean " + nearest + "?") +
-              " Rename it, or say what every column is: {import.columns}. Understood are " +
-              KnownColumnNames());
+      return Refused("units_ambiguous", table.name + ", column " + column.written,
+                     "is not known" + (nearest.empty() ? "." : "; did you mean " + nearest + "?") +
+                         " Rename it" + OfAControl(column.written) +
+                         ", or say what every column is: {import.columns}. Understood are " +
+                         KnownColumnNames());
     }
     if (!TrimBlanks(column.written).empty()) {
       warnings.push_back({"column_ignored", table.name + ", column " + column.written,
-                          "holds words that no quantity is known for; it is left out"});
+                          "holds words that no quantity is known for; it is left out. Rename it" +
+                              OfAControl(column.written) +
+                              " or the reading's time (time, each 2026-11-21T14:03:00)"});
     }
   }
   return warnings;
@@ -91,8 +114,7 @@ bool TakeWord(Reading& reading, CsvQuantity quantity, const std::string& word) {
   if (quantity == CsvQuantity::kLight) reading.light = word;
   if (quantity == CsvQuantity::kMeter) reading.meter = word;
   if (quantity == CsvQuantity::kTime) {
-    const bool year_first = word.size() >= 10 && (word[4] == '-' || word[4] == '/');
-    if (year_first) reading.time = IsoTime(word, DateOrder::kYearFirst);
+    reading.time = TimeOfCell(word);
     return !reading.time.empty();
   }
   if (quantity == CsvQuantity::kLamp) {

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "lightcal_devices/files/delimited_text.h"
+
 namespace lightcal::devices {
 namespace {
 
@@ -24,10 +26,17 @@ Result<void> Check(files::FileFault fault, const std::string& path) {
   return {};
 }
 
+// Photometric files are ASCII and what stood near it; programs of Windows also save them in UTF-16.
+Result<std::string> TextOf(std::string bytes, const std::string& path) {
+  const bool utf16 = bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
+  if (!utf16) return bytes;
+  return files::TextFromBytes(bytes, fs::path(path).filename().string());
+}
+
 Result<std::string> TiltBeside(const std::string& path) {
   files::FileBytes file = files::ReadFileBytes(path, kMaxPhotometricBytes);
   if (auto there = Check(file.fault, path); !there) return Propagate(std::move(there));
-  return std::move(file.bytes);
+  return TextOf(std::move(file.bytes), path);
 }
 
 }  // namespace
@@ -40,8 +49,10 @@ Result<ReadPhotometric> PhotometricRead(const files::FileBytes& file, const std:
                                         std::optional<int> lamp_set) {
   if (auto there = Check(file.fault, path); !there) return Propagate(std::move(there));
   const fs::path folder = fs::path(path).parent_path();
+  const auto text = TextOf(file.bytes, path);
+  if (!text) return tl::unexpected(text.error());
   return PhotometricFromText(
-      file.bytes, fs::path(path).filename().string(),
+      *text, fs::path(path).filename().string(),
       [&](const std::string& name) { return TiltBeside(folder / name); }, lamp_set);
 }
 

@@ -1,0 +1,87 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tables as loggers and spreadsheets write them: what the lamp was dimmed to is its state and never left out in
+silence, a timestamp is the reading's time, decimals with commas are read and named, in gels and UTF-16 too.
+
+    logger_tables.py LIGHTCAL PHOTOMETRIC_FOLDER
+"""
+import json
+import pathlib
+import shutil
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
+from built_command import HOME, answer, refused, run  # noqa: E402
+
+SESSION = 'lightcal = 1\n[room]\ndark = true\n[[light]]\nname = "key"\nkind = "point"\nfixture = "bulb"\n'
+
+
+def imported(name, text, code=0, encoding="utf-8"):
+    """What stands in the journal of a session of its own, and what was said."""
+    folder = HOME / name
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    (folder / "session.toml").write_text(SESSION)
+    table = HOME / f"{name}.csv"
+    table.write_bytes(text.encode(encoding))
+    done = run("import", table, "-s", folder, "--light", "key", code=code)
+    journal = folder / "readings.jsonl"
+    return [json.loads(line) for line in journal.read_text().splitlines()] if journal.exists() else [], done.stderr
+
+
+# ---- dimmers ----
+for column, cells in (("dimmer", ("100%", "50%")), ("dimmer", ("100", "50")), ("Dimmer (%)", ("100", "50")),
+                      ("level_percent", ("100", "50")), ("Intensity [%]", ("100", "50")),
+                      ("state.dimmer", ("100", "50%"))):
+    rows, said = imported("dimmed", f"distance_m,illuminance_lx,{column}\n0.5,400,{cells[0]}\n0.5,200,{cells[1]}\n")
+    assert [row["state"]["dimmer"] for row in rows] == [100, 50], (column, cells, rows)
+    assert "left out" not in said, said
+candela = answer("fit", HOME / "dimmed")["lights"][0]["intensity_cd"]["value"]
+assert abs(candela / 100 - 1) < 0.05, candela  # of the lamp at 100, not of both states at once
+_, said = imported("parts", "distance_m,illuminance_lx,dimmer\n0.5,400,1\n0.5,200,0.5\n", code=3)
+assert "percent" in said, said
+_, said = imported("level", "distance_m,illuminance_lx,level\n0.5,400,1\n0.5,200,7\n", code=3)
+assert "state.dimmer" in said, said
+rows, said = imported("modes", "distance_m,illuminance_lx,mode\n0.5,400,boost\n0.5,200,eco\n")
+assert len(rows) == 2 and "state.mode" in said, said
+
+# ---- times ----
+for first, second in (("01.03.2026 12:00:05", "01.03.2026 12:02:05"), ("2026-03-01T12:00:05", "2026-03-01T12:02:05"),
+                      ("2026/03/01 12:00:05", "2026/03/01 12:02:05")):
+    rows, said = imported("times", f"timestamp,distance_m,illuminance_lx\n{first},0.5,400\n{second},1,100\n")
+    assert [row["time"] for row in rows] == ["2026-03-01T12:00:05", "2026-03-01T12:02:05"], (first, rows)
+    assert "left out" not in said, said
+# March or April? Left out, and said so.
+rows, said = imported("either", "timestamp,distance_m,illuminance_lx\n03/04/2026 12:00,0.5,400\n04/04/2026 12:00,1,100\n")
+assert len(rows) == 2 and "left out" in said and "time" in said, said
+
+# ---- decimals ----
+_, said = imported("mixed", "distance_m;illuminance_lx\n0,5;400.5\n1,0;100.2\n", code=3)
+assert "commas" in said and "400,5" in said, said
+seen = []
+for comma in (False, True):
+    for by_row in (False, True):
+        nms = range(380, 781, 20)
+        part = {nm: 0.5 + nm % 7 / 50 for nm in nms}
+        if by_row:
+            text = ("filter,name," + ",".join(f"{nm}nm" for nm in nms) + "\nG1,one," +
+                    ",".join(f"{part[nm]:.4f}" for nm in nms) + "\n")
+        else:
+            text = "wavelength_nm,G1 transmittance (%)\n" + "".join(f"{nm}.0,{100 * part[nm]:.2f}\n" for nm in nms)
+        if comma:
+            text = text.replace(",", ";").replace(".", ",")
+        (HOME / "gels.csv").write_text(text)
+        seen.append(answer("color", "--spectrum", "illuminant:A", "--through", "gels.csv:G1")["cct_K"])
+assert max(seen) - min(seen) < 0.1, seen
+
+# ---- a photometric file saved as UTF-16 ----
+for file in sorted(pathlib.Path(sys.argv[2]).glob("*.ldt"))[:1]:
+    text = file.read_bytes().decode("latin-1")
+    (HOME / "plain.ldt").write_bytes(text.encode("latin-1"))
+    (HOME / "wide.ldt").write_bytes(text.encode("utf-16"))
+    plain, wide = (answer("photometric", f"{name}.ldt") for name in ("plain", "wide"))
+    assert plain["flux_lm"] == wide["flux_lm"], (plain, wide)
+
+# ---- a preset is no light.json ----
+run("quick", "192lx@0.5m", "--to", "json", "-o", "place")
+refused("bad_light", "simulate", next((HOME / "place").rglob("*preset*.json")), "--at", "0,0,1", says="light.json")
