@@ -156,7 +156,9 @@ struct Session {
 
 // Adds, for each lit reading and each light, a SessionReading with the lamp on or off, the other
 // lit lamps beside it and the distance from it. Readings at one position, or at the same distance
-// from a lamp both name, stand in one place and share their distances; where none says, all do.
+// from a lamp both name, stand in one place and share their distances; where none says, all do. A
+// reading of one light at such a place (light and distance_m, or position_m) is one with that lamp
+// alone lit.
 void SpreadLitReadings(Session& session);
 
 // The state that a lamp with controls is fitted at: of those its readings name, the one read at

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/model/rows_behind.h"
 
@@ -52,7 +53,10 @@ class OtherLight : private RowsBehind {
         const SessionReading& reading = *behind_[j].source;
         return reading.others_lit == others && reading.place == behind_[i].source->place;
       };
-      gone[i] = out_.rows[i].over_range || !Subtract(i, off, lamp_off);
+      gone[i] = out_.rows[i].over_range || !(Subtract(i, off, lamp_off) || SubtractParts(i, off));
+      if (!gone[i]) {
+        if (auto more = CheckAdds(out_.rows[i], others); !more) return more;
+      }
       out_.rows[i].ambient_subtracted = !gone[i];
       separated += gone[i] ? 0 : 1;
     }
@@ -66,6 +70,56 @@ class OtherLight : private RowsBehind {
     }
     Keep(gone);
     return {};
+  }
+
+  // The others lit were read there too, without this lamp, in parts that make them all: their light
+  // adds up, and each part holds once what shines with none of them.
+  bool SubtractParts(std::size_t i, const std::vector<std::size_t>& off) {
+    const SessionReading& lit = *behind_[i].source;
+    std::vector<std::string> left = lit.others_lit;
+    const auto others_at = [&](std::size_t j) -> const std::vector<std::string>& {
+      static const std::vector<std::string> kNone;
+      const SessionReading& reading = *behind_[j].source;
+      const bool here = lit.place >= 0 && reading.place == lit.place && !out_.rows[j].over_range;
+      return here ? reading.others_lit : kNone;
+    };
+    MeanLux parts;
+    int count = 0;
+    for (; !left.empty(); ++count) {
+      std::vector<std::string> part;
+      for (const std::size_t j : off) {
+        const std::vector<std::string>& those = others_at(j);
+        if (those.size() > part.size() && std::ranges::includes(left, those)) part = those;
+      }
+      if (part.empty()) return false;
+      const auto mean = MeanOf(i, off, [&](std::size_t j) { return others_at(j) == part; });
+      parts.lux += mean->lux;
+      parts.sigma_lx = std::hypot(parts.sigma_lx, mean->sigma_lx);
+      std::erase_if(left, [&](const std::string& name) {
+        return std::ranges::find(part, name) != part.end();
+      });
+    }
+    std::vector<std::size_t> none = RowsOff();
+    std::erase_if(none, [&](std::size_t j) { return !behind_[j].source->others_lit.empty(); });
+    if (!none.empty()) {
+      const auto here = [&](std::size_t j) { return SamePlace(out_.rows[i], j); };
+      const MeanLux each = MeanOf(i, none, here).value_or(Elsewhere(none));
+      parts.lux -= (count - 1) * each.lux;
+      parts.sigma_lx = std::hypot(parts.sigma_lx, (count - 1) * each.sigma_lx);
+    }
+    TakeFrom(i, parts);
+    return true;
+  }
+
+  // A lamp only adds, whatever else is lit.
+  Result<void> CheckAdds(const Observation& row, const std::vector<std::string>& others) const {
+    if (row.measured_lx >= -std::max(kSwapped * row.raw_lx, kApart * row.sigma_lx)) return {};
+    return Refused("dark_above_lit", light_.name,
+                   "reading " + std::to_string(row.index) + ": with " + Joined(others, ", ") +
+                       " lit and this lamp off the meter showed " + RoundedText(row.card_lx, 4) +
+                       " lx, with this one on too " + RoundedText(row.raw_lx, 4) +
+                       ": a lamp only adds light. Were the two taken for one another, or did a "
+                       "lamp change between them? Read both again");
   }
 
   Result<void> SubtractShadows() {

@@ -77,6 +77,12 @@ std::vector<const Observation*> Unrepeated(const std::vector<Observation>& rows,
   return there;
 }
 
+// "60.00", or "160.0 less 100.0" of a difference, which no meter showed.
+std::string WhatItShowed(const Observation& row) {
+  if (row.measured_lx == row.raw_lx) return RoundedText(row.measured_lx, 4);
+  return RoundedText(row.raw_lx, 4) + " less " + RoundedText(row.raw_lx - row.measured_lx, 4);
+}
+
 }  // namespace
 
 void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
@@ -110,8 +116,7 @@ void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
       warnings.push_back(
           {"suspicious_reading", light,
            "at " + RoundedText(one.distance_m, 4) + " m the same meter read " +
-               Joined(there, ", ",
-                      [](const Observation* o) { return RoundedText(o->measured_lx, 4); }) +
+               Joined(there, ", ", [](const Observation* o) { return WhatItShowed(*o); }) +
                " lx (readings " +
                Joined(there, ", ", [](const Observation* o) { return std::to_string(o->index); }) +
                "): farther apart than it repeats. The lamp was still warming up, its battery or "
