@@ -36,8 +36,10 @@ inline LightFile FullLightFile() {
   light.aim = Vec3{0.0, 0.6, -0.8};
   light.axis = Vec3{1.0, 0.0, 0.0};
   IntensityGrid grid{GoniometerType::kC, {0.0}, {0.0, 30.0, 60.1}, {1.0 / 7.0, 900.5, 0.0}};
-  light.distribution = MeasuredDistribution{
-      IntensityTable::Make(std::move(grid), "sample").value(), 0.013, {{"camera", 0.01, 1e-9}}};
+  light.distribution = MeasuredDistribution{IntensityTable::Make(std::move(grid), "sample").value(),
+                                            0.013,
+                                            {{"camera", 0.01, 1e-9}},
+                                            {0.0, 1.0 / 7.0, 0.02}};
   light.color.cct_K = Uncertain{2900.4, 31.5, 2869.0, 2932.0};
   light.color.duv = Uncertain{-0.0012, 0.0004, -0.0016, -0.0008};
   light.color.xy = Xy{0.4476, 0.4074};

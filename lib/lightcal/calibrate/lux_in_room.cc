@@ -14,11 +14,12 @@ constexpr double kLikeOnAxis = 0.02;  // what a lamp gives there differs from it
 constexpr double kOtherWalls = 0.4;   // 1 sigma of ln E_walls
 
 // The whole with what a point may shine more or less that way than where it was read.
-Uncertain WithPattern(const Uncertain& whole, const FittedLight& light, double direct_lx,
-                      const Vec3& way) {
-  if (!light.uneven) return whole;
+Uncertain WithPattern(const Uncertain& whole, const FittedLight& light, const PlacedLamp& placed,
+                      double direct_lx, const Vec3& way) {
+  if (!light.uneven || !placed.doubt.place) return whole;
   const double share = direct_lx / whole.value;
-  const double pattern = kZ95 * share * SdTowards(*light.uneven, way * (-1.0 / Length(way)));
+  const UnevenLight uneven = {light.uneven->gradient_sd, placed.doubt.place->middle};
+  const double pattern = kZ95 * share * SdTowards(uneven, way * (-1.0 / Length(way)));
   Uncertain out = whole;
   out.low = whole.value * std::exp(-std::hypot(std::log(whole.value / *whole.low), pattern));
   out.high = whole.value * std::exp(std::hypot(std::log(*whole.high / whole.value), pattern));
@@ -31,6 +32,7 @@ bool FacesAxis(const PlacedLamp& placed, double direct_lx, const SurfacePoint& a
                const Vec3& way) {
   const double distance = Length(way);
   if (!(Dot(way, at.normal) > kFacing * distance)) return false;
+  if (DoubtOfPattern(placed, at) > kLikeOnAxis * direct_lx) return false;
   if (std::holds_alternative<PointSource>(placed.source) ||
       std::holds_alternative<SphereSource>(placed.source)) {
     return true;
@@ -55,7 +57,7 @@ std::optional<Uncertain> LuxInRoom(const FittedLight& light, const PlacedLamp& p
   const auto room = PredictInRoom(light, Metres(distance), 0.0);
   if (!room || !*room) return std::nullopt;
   if (FacesAxis(placed, alone.direct_lx, at, way)) {
-    return WithPattern((*room)->whole_lx, light, alone.direct_lx, way);
+    return WithPattern((*room)->whole_lx, light, placed, alone.direct_lx, way);
   }
   const Uncertain& walls = (*room)->walls_lx;
   const double u95 = std::hypot(alone.u95_lx, walls.u95, kZ95 * kOtherWalls * walls.value);

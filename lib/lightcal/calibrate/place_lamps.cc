@@ -79,16 +79,16 @@ LampSource SourceOf(const FittedLight& light, Warnings& warnings) {
       unknown_size("length_m");
       return PointSource{};
     case LightKind::kPhotometric:
+    case LightKind::kSpot:
       if (light.distribution) {
         return TableSource{std::make_shared<IntensityTable>(light.distribution->table)};
       }
-      [[fallthrough]];
-    case LightKind::kSpot:
       if (const auto spot = cone()) return *spot;
       warnings.push_back(
           {"cone_unknown", light.name,
            "no outer_deg is known: simulated as shining evenly all round, right along "
-           "its aim only; give beam_deg or outer_deg, or measure off the axis"});
+           "its aim only, anything from there to darkness off it; give beam_deg or outer_deg, or "
+           "measure off the axis"});
       return PointSource{};
     case LightKind::kPoint:
       break;
@@ -128,29 +128,34 @@ double SdOfLog(const Uncertain& u) {
   return u.u95 / (u.value * kZ95);
 }
 
-PlaceDoubt PlaceDoubtOf(const LocatedLamp& located) {
+PlaceDoubt PlaceDoubtOf(const LocatedLamp& located, bool stands_there) {
   constexpr int n = PlaceDoubt::kCount;
   constexpr std::array<int, n> kFrom = {0, 1, 2, 3, 7, 8, 9};
+  const auto counts = [&](int i) { return stands_there || i < 1 || i > 3; };
   PlaceDoubt doubt{located.gradient, located.middle, {}};
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
+      if (!counts(i) || !counts(j)) continue;
       doubt.covariance[i * n + j] = located.covariance[kFrom[i] * LocatedLamp::kCount + kFrom[j]];
     }
   }
   return doubt;
 }
 
-// Of a place and a pattern that nothing ties to the strength.
-PlaceDoubt PlaceDoubtOf(const FittedLight& light, double variance_ln) {
+// Of a place and a pattern that nothing ties to the strength. Meters of which a distance alone is
+// known stood on the aim.
+PlaceDoubt PlaceDoubtOf(const FittedLight& light, double variance_ln, bool stands_there,
+                        const std::optional<Vec3>& aim) {
   constexpr int kDiagonal = PlaceDoubt::kCount + 1;
   PlaceDoubt doubt;
   doubt.covariance[0] = variance_ln;
   for (int k = 0; k < 3; ++k) {
-    const double place = light.position_u95_m.value_or(Vec3{})[k] / kZ95;
+    const double place = stands_there ? light.position_u95_m.value_or(Vec3{})[k] / kZ95 : 0.0;
     doubt.covariance[(1 + k) * kDiagonal] = place * place;
     if (!light.uneven) continue;
     const double sd = light.uneven->gradient_sd[k];
-    doubt.middle[k] = light.uneven->middle[k];
+    const bool by_aim = !light.position_m && aim;
+    doubt.middle[k] = by_aim ? (*aim)[k] / Length(*aim) : light.uneven->middle[k];
     doubt.covariance[(4 + k) * kDiagonal] = sd * sd;
   }
   return doubt;
@@ -168,7 +173,8 @@ std::vector<LampPart> PartsOf(const FittedLight& light) {
   return parts;
 }
 
-LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stated_position) {
+LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stands_there,
+                  const std::optional<Vec3>& aim) {
   LampDoubt doubt;
   const double sd = SdOfLog(strength);
   doubt.variance_ln = sd * sd;
@@ -182,10 +188,10 @@ LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stat
     const double offset = light.distance_offset_m->u95 / kZ95;
     doubt.variance_offset = offset * offset;
   }
-  if ((light.position_u95_m || light.uneven) && stated_position) {
-    doubt.place = light.located
-                      ? PlaceDoubtOf(*light.located)
-                      : PlaceDoubtOf(light, doubt.parts.empty() ? doubt.variance_ln : 0.0);
+  if (light.uneven || light.located || (light.position_u95_m && stands_there)) {
+    doubt.place = light.located ? PlaceDoubtOf(*light.located, stands_there)
+                                : PlaceDoubtOf(light, doubt.parts.empty() ? doubt.variance_ln : 0.0,
+                                               stands_there, aim);
   }
   const auto radians = [](const std::optional<double>& u95_deg) {
     return RadiansFromDegrees(u95_deg.value_or(0.0) / kZ95).value();
@@ -194,6 +200,43 @@ LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stat
   doubt.inner_rad = radians(light.inner_u95_deg);
   doubt.outer_rad = radians(light.outer_u95_deg);
   return doubt;
+}
+
+// Off its aim: as its table is known; a flat lamp and a tube as far from their laws as their flux
+// is; a spot of which nobody knows how it shines, anyhow.
+void AddPattern(const FittedLight& light, const Uncertain& strength, PlacedLamp& lamp) {
+  LampDoubt& doubt = lamp.doubt;
+  const bool beam = light.kind == LightKind::kSpot || light.kind == LightKind::kPhotometric;
+  if (beam && std::holds_alternative<PointSource>(lamp.source)) {
+    doubt.pattern = std::make_shared<const PatternDoubt>(DoubtOfAnyBeam());
+    doubt.variance_ln_flux = kAnyBeamLnFluxSd * kAnyBeamLnFluxSd;
+    return;
+  }
+  if (!light.flux_lm || !(light.flux_lm->value > 0.0)) return;
+  const double flux = SdOfLog(*light.flux_lm), of_strength = SdOfLog(strength);
+  const double variance = std::max(0.0, flux * flux - of_strength * of_strength);
+  // Phi/I = 2 pi/(m + 1) of cos^m, 2 pi int sin^(m+1) of sin^m; their slopes by m where m = 1.
+  constexpr double kOfCosine = 0.5, kOfSine = std::numbers::ln2 - 0.5;
+  if (const auto* spot = std::get_if<SpotSource>(&lamp.source)) {
+    // Phi goes as the square of the cone.
+    const double part = 0.5 * std::sqrt(variance);
+    if (!light.inner_u95_deg) doubt.inner_rad = part * spot->cone.inner.value();
+    if (!light.outer_u95_deg) doubt.outer_rad = part * spot->cone.outer.value();
+  } else if (light.kind == LightKind::kDisk || light.kind == LightKind::kRect) {
+    doubt.exponent = std::sqrt(variance) / kOfCosine;
+  } else if (light.kind == LightKind::kTube) {
+    doubt.exponent = std::sqrt(variance) / kOfSine;
+  } else if (!light.distribution || light.distribution->pattern_sd.empty()) {
+    return;
+  } else {
+    PatternDoubt pattern;
+    for (const double degrees : light.distribution->table.grid().vertical_deg) {
+      pattern.gamma_rad.push_back(RadiansFromDegrees(degrees).value());
+    }
+    pattern.part_sd = light.distribution->pattern_sd;
+    doubt.pattern = std::make_shared<const PatternDoubt>(std::move(pattern));
+  }
+  doubt.variance_ln_flux = variance;
 }
 
 // Of a sphere whose distances may have been counted from its surface d0 says from where; what
@@ -259,7 +302,8 @@ class Placer {
       lamp.pose.position_m = lamp.pose.position_m - lamp.pose.frame.z * lamp.pose.offset_m;
       lamp.pose.offset_m = 0.0;
     }
-    lamp.doubt = DoubtOf(light, *strength, !places_.position_m.contains(light.name));
+    lamp.doubt = DoubtOf(light, *strength, !places_.position_m.contains(light.name), aim);
+    AddPattern(light, *strength, lamp);
     if (OffsetHoldsRadius(light)) {
       lamp.pose.offset_m = 0.0;
       lamp.doubt.variance_offset = lamp.doubt.covariance = 0.0;

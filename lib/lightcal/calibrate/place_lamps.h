@@ -31,7 +31,8 @@ using PictureOfDome =
     const LightFile& file, const std::vector<std::string>& names);
 
 // A disk, rect, spot or photometric light without an aim shines straight down (aim_unknown); a spot
-// without a cone shines evenly (cone_unknown), a flat lamp or tube without a size is a point of its
+// shines as its distribution, else as its cone, and without either evenly, anything less off its
+// aim within its doubt (cone_unknown); a flat lamp or tube without a size is a point of its
 // kind (size_unknown). A dome sends to every side what its picture shows; without one it is a sky
 // that nobody saw. Refused: position_unknown, no_intensity, bad_environment (a picture dark above,
 // by which its illuminance is measured), and as `picture`.

@@ -8,6 +8,9 @@
 #include <initializer_list>
 #include <numbers>
 #include <utility>
+#include <vector>
+
+#include "lightcal/core/uncertain.h"
 
 namespace lightcal {
 namespace {
@@ -101,6 +104,32 @@ std::optional<RelativeIntensity> BeamOf(Radians beam, std::optional<Radians> fie
                2.0 * std::numbers::pi / (exponent + 1.0),
                [=](double t) { return 0.5 + 0.5 * std::max(0.0, (std::cos(t) - c) / (1.0 - c)); },
                std::numbers::pi * (1.0 + 0.5 * (1.0 - c)), wanted);
+}
+
+RelativeIntensity DoubtOfBeams(Radians beam, std::optional<Radians> field,
+                               RelativeIntensity drawn) {
+  const double half = 0.5 * beam.value();
+  std::vector<Shape> members;
+  if (field) {
+    for (Shape& shape : ShapesThrough(half, 0.5 * field->value())) {
+      members.push_back(std::move(shape));
+    }
+  } else {
+    const double n = CosineExponent(half);
+    members = {[half](double t) { return t < half ? 1.0 : 0.0; },
+               [half](double t) { return std::exp2(-(t / half) * (t / half)); },
+               [n](double t) { return std::pow(std::max(0.0, std::cos(t)), n); }};
+    if (const auto widest = BeamOf(beam, field, FromBeam(half).most)) {
+      members.emplace_back([widest = *widest](double t) { return widest(Radians(t)); });
+    }
+  }
+  return [members = std::move(members), drawn = std::move(drawn)](Radians theta) {
+    double farthest = 0.0;
+    for (const Shape& member : members) {
+      farthest = std::max(farthest, std::abs(member(theta.value()) - drawn(theta)));
+    }
+    return farthest / kZ95;
+  };
 }
 
 }  // namespace lightcal

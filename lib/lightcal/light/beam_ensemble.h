@@ -36,4 +36,10 @@ using RelativeIntensity = std::function<double(Radians)>;
 [[nodiscard]] std::optional<RelativeIntensity> BeamOf(Radians beam, std::optional<Radians> field,
                                                       Steradians flux_per_candela);
 
+// How far those beams lie off `drawn`, one of them: the farthest at each angle, taken for the end
+// of a 95 % interval as their solid angles are; 1 sigma, in parts of the peak. Of a beam angle
+// alone the widest is BeamOf's. Angles as BeamEnsemble takes them.
+[[nodiscard]] RelativeIntensity DoubtOfBeams(Radians beam, std::optional<Radians> field,
+                                             RelativeIntensity drawn);
+
 }  // namespace lightcal

@@ -118,6 +118,18 @@ double VarianceOfPlace(const PlaceDoubt& doubt, const Vec3& way, double here, co
   return variance;
 }
 
+// dE/dm of a flat lamp that shines by cos^m, m near 1, and of a tube by sin^m of the angle from its
+// length: E ln of that cosine or sine, no lower than where no meter tells it.
+double DoubtOfExponent(const PlacedLamp& lamp, const SurfacePoint& at) {
+  constexpr double kLeast = 0.05;
+  const bool tube = std::holds_alternative<TubeSource>(lamp.source);
+  const Vec3 p = lamp.pose.frame.Of(at.position_m - lamp.pose.position_m);
+  const double length = Length(p);
+  if (!(length > 0.0)) return 0.0;
+  const double part = (tube ? std::hypot(p[1], p[2]) : p[2]) / length;
+  return lamp.doubt.exponent * LuxOf(lamp, at) * -std::log(std::clamp(part, kLeast, 1.0));
+}
+
 // As one of the things that the lamp may be has it: ln E at a place.
 NormalPart LnLuxOf(const PlacedLamp& lamp, const LampPart& part, const SurfacePoint& at,
                    const SourceDetail& detail) {
@@ -253,11 +265,23 @@ double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at, const SourceDe
     add(doubt.inner_rad, [&](double by) { return cone(by, 0.0); });
     add(doubt.outer_rad, [&](double by) { return cone(0.0, by); });
   }
+  const double pattern = DoubtOfPattern(lamp, at);
+  variance += pattern * pattern;
   if (std::holds_alternative<EvenSky>(lamp.source)) {
     const double unseen = lamp.strength * DoubtOfUnseen(at.normal);
     variance += unseen * unseen;
   }
   return std::sqrt(std::max(0.0, variance));
+}
+
+double DoubtOfPattern(const PlacedLamp& lamp, const SurfacePoint& at) {
+  if (lamp.doubt.exponent > 0.0) return DoubtOfExponent(lamp, at);
+  if (!lamp.doubt.pattern || IsEverywhere(lamp.source)) return 0.0;
+  const Receiver<double> receiver = ReceiverOf<PointSource>(lamp.pose, at);
+  const double even = PointLuxPerCandela(receiver);
+  if (!(even > 0.0)) return 0.0;
+  const Vec3& p = receiver.position;
+  return lamp.strength * even * lamp.doubt.pattern->At(std::atan2(std::hypot(p[0], p[1]), p[2]));
 }
 
 double DoubtOfLnFlux(const PlacedLamp& lamp) {
@@ -271,6 +295,7 @@ double DoubtOfLnFlux(const PlacedLamp& lamp) {
     const double sd = UncertainFromLogMixture(parts).u95 / kZ95;
     variance = sd * sd / (lamp.strength * lamp.strength);
   }
+  variance += doubt.variance_ln_flux;
   if (!doubt.place) return std::sqrt(variance);
   constexpr int n = PlaceDoubt::kCount;
   const Vec3& middle = doubt.place->middle;

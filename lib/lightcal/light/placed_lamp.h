@@ -12,6 +12,7 @@
 #include "lightcal/core/vec3.h"
 #include "lightcal/light/intensity_table.h"
 #include "lightcal/light/models/source_model.h"
+#include "lightcal/light/pattern_doubt.h"
 
 namespace lightcal {
 
@@ -71,6 +72,9 @@ struct LampDoubt {
   std::optional<PlaceDoubt> place;  // variance_ln is in it, but not beside parts
   double aim_rad = 0.0;             // of each of its two directions
   double inner_rad = 0.0, outer_rad = 0.0;
+  std::shared_ptr<const PatternDoubt> pattern{};  // of a point, a table: off its aim
+  double exponent = 0.0;  // of the cosine by which a flat lamp shines off its aim, of a tube's sine
+  double variance_ln_flux = 0.0;  // of ln of all its light, beside that of its strength
 };
 
 struct PlacedLamp {
@@ -118,9 +122,12 @@ struct SurfacePoint {
 [[nodiscard]] double DoubtOfLux(const PlacedLamp& lamp, const SurfacePoint& at,
                                 const SourceDetail& detail = {});
 
+// Of it, what its pattern leaves open there (LampDoubt::pattern).                            [lx]
+[[nodiscard]] double DoubtOfPattern(const PlacedLamp& lamp, const SurfacePoint& at);
+
 // The same of the logarithm of all the light that it sends, which the walls throw back: its
-// strength and, of a lamp that may shine more to one side, that side: ln flux = ln strength - g .
-// middle.
+// strength, its pattern and, of a lamp that may shine more to one side, that side:
+// ln flux = ln strength - g . middle.
 [[nodiscard]] double DoubtOfLnFlux(const PlacedLamp& lamp);
 
 }  // namespace lightcal

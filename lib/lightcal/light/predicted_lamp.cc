@@ -31,7 +31,7 @@ PredictedLamp::PredictedLamp(const PlacedLamp& lamp, const MapSettings& settings
     : lamp_(Settled(lamp)), haze_per_m_(settings.haze_per_m), room_(settings.room) {
   const LampDoubt& doubt = lamp.doubt;
   shape_unsure_ = doubt.place.has_value() || doubt.aim_rad > 0.0 || doubt.inner_rad > 0.0 ||
-                  doubt.outer_rad > 0.0;
+                  doubt.outer_rad > 0.0 || doubt.pattern != nullptr;
   const bool walls = room_ && room_->reflectance > 0.0 &&
                      settings.room_bounce != EffectChoice::kNever && !IsEverywhere(lamp.source);
   if (!walls) return;

@@ -34,13 +34,20 @@ void VisitDistribution(FieldReader& reader, std::optional<MeasuredDistribution>&
     VisitGrid(inner, grid);
     inner.Number("interpolated_share", interpolated_share, kNotNegative);
     inner.List("budget", budget, kVisitPart);
+    std::vector<double> pattern_sd;
+    if (inner.Has("pattern_sd")) inner.Numbers("pattern_sd", pattern_sd, kNotNegative);
     if (inner.Failed()) return;
+    if (!pattern_sd.empty() && pattern_sd.size() != grid.vertical_deg.size()) {
+      inner.Fail("pattern_sd", "pattern_sd must have one number a vertical angle");
+      return;
+    }
     auto table = IntensityTable::Make(std::move(grid), "distribution");
     if (!table) {
       inner.Fail("candela", table.error().message);
       return;
     }
-    out = MeasuredDistribution{*std::move(table), interpolated_share, std::move(budget)};
+    out = MeasuredDistribution{*std::move(table), interpolated_share, std::move(budget),
+                               std::move(pattern_sd)};
   });
 }
 
@@ -50,6 +57,7 @@ void VisitDistribution(FieldWriter& writer, const std::optional<MeasuredDistribu
     VisitGrid(inner, given->table.grid());
     inner.Number("interpolated_share", given->interpolated_share);
     inner.List("budget", given->budget, kVisitPart);
+    if (!given->pattern_sd.empty()) inner.Numbers("pattern_sd", given->pattern_sd, kNotNegative);
   });
 }
 

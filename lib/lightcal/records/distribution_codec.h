@@ -10,7 +10,8 @@
 
 namespace lightcal::records {
 
-// {"type","horizontal_deg","vertical_deg","candela","interpolated_share","budget":[..]}: candela of
+// {"type","horizontal_deg","vertical_deg","candela","interpolated_share","budget":[..],
+// "pattern_sd"}: candela of
 // all vertical angles of the first horizontal angle, then of the next.
 void VisitDistribution(FieldReader& reader, std::optional<MeasuredDistribution>& out);
 void VisitDistribution(FieldWriter& writer, const std::optional<MeasuredDistribution>& given);

@@ -136,6 +136,9 @@ struct MeasuredDistribution {
     double peak = 0.0, flux = 0.0;
   };
   std::vector<Part> budget{};
+  // Of a lamp round about its aim, at each vertical angle: 1 sigma of the intensity there beside
+  // the peak's own, in parts of the peak; beyond the last angle as there. Empty: not known.
+  std::vector<double> pattern_sd{};
 };
 
 // The picture that a dome was measured as: linear, lat-long; its middle looks along +Y, its right

@@ -6,7 +6,9 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "lightcal/fit/beam/beam_rows.h"
 #include "lightcal/records/stated_beam.h"
 
 namespace lightcal::fit {
@@ -19,6 +21,20 @@ constexpr double kWidestStep_deg = 1.0;
 bool IsBareSpot(const FittedLight& out) {
   return out.kind == LightKind::kSpot && !out.distribution && out.flux_lm && out.intensity_cd &&
          out.intensity_cd->value > 0.0;
+}
+
+// Beams of those angles differ, and lamps from the angles of their data sheets.
+std::vector<double> PatternOfStated(const LightDescription& light, const RelativeIntensity& drawn,
+                                    const MeasuredDistribution& distribution) {
+  const RelativeIntensity of_beams = DoubtOfBeams(*light.beam, light.field, drawn);
+  std::vector<double> out;
+  for (const double degrees : distribution.table.grid().vertical_deg) {
+    const Radians at = RadiansFromDegrees(degrees);
+    const double of_angle =
+        0.5 * (drawn(at / (1.0 + kSheetAngle)) - drawn(at * (1.0 + kSheetAngle)));
+    out.push_back(std::hypot(of_beams(at), of_angle));
+  }
+  return out;
 }
 
 }  // namespace
@@ -50,6 +66,7 @@ void ShapeByStatedBeam(const LightDescription& light, FittedLight& out) {
   auto table = IntensityTable::Make(std::move(grid), light.name);
   if (!table) return;
   out.distribution = MeasuredDistribution{*std::move(table)};
+  out.distribution->pattern_sd = PatternOfStated(light, *beam, *out.distribution);
   out.beam = MeasuredBeam{};
   out.beam->families = {{std::string(kStatedBeam), 1.0, 0.0}};
 }

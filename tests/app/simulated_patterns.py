@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What `simulate` says off the axis, against lamps written out here: a spot of stated beam and field (as bright as
+its exported IES file, by this file's own interpolation), one of which nothing is stated, panels that shine by cos^m. Its
+95 % must hold them; what faces the axis stays as sure as it was. Written without a header of lightcal."""
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+LIGHTCAL = str(pathlib.Path(sys.argv[1]).resolve())
+FOLDER = tempfile.TemporaryDirectory()
+HEAD = ('lightcal = 1\nname = "w"\n[room]\ndark = true\n[[meter]]\nname = "m"\nsigma_relative = %g\n'
+        'repeatability_relative = %g\n[[light]]\nname = "s"\nposition_m = [0, 0, 2]\n')
+SPOT = 'kind = "spot"\naim = [0, 0, -1]\n'
+
+
+def run(*words):
+    done = subprocess.run([LIGHTCAL, *map(str, words)], check=True, capture_output=True, text=True)
+    return done.stdout
+
+
+def session(lamp, readings, scale=0.01, scatter=0.003):
+    """readings: (distance, degrees off the axis, lux)."""
+    text = HEAD % (scale, scatter) + lamp
+    for distance, degrees, lux in readings:
+        text += f'[[reading]]\nlight = "s"\nmeter = "m"\ndistance_m = {distance}\nilluminance_lx = {lux:.5g}\n'
+        text += f"off_axis_deg = {degrees}\n" if degrees else ""
+    path = pathlib.Path(FOLDER.name) / "w.toml"
+    path.write_text(text)
+    light = pathlib.Path(FOLDER.name) / "light.json"
+    run("fit", path, "-o", light, "--force")
+    return light
+
+
+def simulated(light, points):
+    """(value, u95) of meters that face the lamp."""
+    at = [f"{x:.6f},{y:.6f},{z:.6f}" for x, y, z in points]
+    answer = json.loads(run("simulate", light, "--normal", "lamp", "--at", *at, "--json"))
+    return [(p["illuminance_lx"]["value"], p["illuminance_lx"]["u95"]) for p in answer["points"]]
+
+
+def on_floor(degrees):
+    return 2 * math.tan(math.radians(degrees)), 0, 0
+
+
+def floor_lux(candela, degrees):
+    return candela * math.cos(math.radians(degrees)) ** 2 / 4
+
+
+def check(name, found, truth, widest=None):
+    value, u95 = found
+    print(f"{name}: {value:.4g} +- {u95:.2g} lx, {truth:.4g} there")
+    assert abs(value - truth) <= u95, name
+    assert widest is None or u95 <= widest * value, name
+
+
+AXIS = [(1, 0, 1000), (2, 0, 250)]
+
+# A spot of stated beam and field: its own file, and any beam of those angles.
+stated = session(SPOT + "beam_deg = 40\nfield_deg = 70\n", AXIS)
+ANGLES = (0, 10, 20, 30, 60)
+ies = pathlib.Path(FOLDER.name) / "out"
+run("export", stated, "--to", "ies", "-o", ies)
+numbers = [float(w) for w in next(ies.glob("**/*.ies")).read_text().split("TILT=NONE")[1].split()]
+count = int(numbers[3])
+gammas, candela = numbers[13:13 + count], numbers[13 + count + 1:13 + 2 * count + 1]
+scale = numbers[2]
+for degrees, found in zip(ANGLES, simulated(stated, [on_floor(a) for a in ANGLES])):
+    i = max(k for k in range(count - 1) if gammas[k] <= degrees)
+    part = (degrees - gammas[i]) / (gammas[i + 1] - gammas[i])
+    of_file = floor_lux(scale * (candela[i] + part * (candela[i + 1] - candela[i])), degrees)
+    assert abs(found[0] - of_file) <= 0.02 * of_file + 0.02, (degrees, found, of_file)
+    p = math.log(math.log(10) / math.log(2)) / math.log(35 / 20)
+    for half in (20, 21.5):  # as printed, and as far off as such angles are
+        truth = floor_lux(1000 * 2 ** -((degrees / half) ** p), degrees)
+        check(f"stated, {degrees} of a beam of {2 * half}", found, truth, 0.06 if degrees == 0 else None)
+
+# A spot of which nothing is stated: its axis, and anything beside it.
+unknown = simulated(session(SPOT, AXIS), [on_floor(a) for a in (0, 20, 60)])
+check("unknown, 0", unknown[0], 250, 0.06)
+for degrees, found in ((20, unknown[1]), (60, unknown[2])):
+    for half in (5, 15, 50):
+        check(f"unknown, {degrees} of {2 * half}", found, floor_lux(1000 * 2 ** -((degrees / half) ** 2), degrees))
+
+# Panels of cos^m.
+panel = session('kind = "rect"\nfixture = "panel"\nsize_m = [0.05, 0.05]\naim = [0, 0, -1]\n', AXIS)
+check("panel, 0", simulated(panel, [on_floor(0)])[0], 250, 0.06)
+for m in (0.75, 1.25):
+    c = math.cos(math.radians(60))
+    check(f"panel of cos^{m}, 60", simulated(panel, [on_floor(60)])[0], floor_lux(1000 * c**m, 60))
