@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What `simulate` says off the axis, against lamps written out here: a spot of stated beam and field (as bright as
-its exported IES file, by this file's own interpolation), one of which nothing is stated, panels that shine by cos^m. Its
-95 % must hold them; what faces the axis stays as sure as it was. Written without a header of lightcal."""
+its exported IES file, by this file's own interpolation), one of which nothing is stated, beams read by angles
+that are a degree off, panels that shine by cos^m. Its 95 % must hold them; what faces the
+axis stays as sure as it was. Written without a header of lightcal."""
 import json
 import math
 import pathlib
+import random
 import subprocess
 import sys
 import tempfile
@@ -83,6 +85,25 @@ check("unknown, 0", unknown[0], 250, 0.06)
 for degrees, found in ((20, unknown[1]), (60, unknown[2])):
     for half in (5, 15, 50):
         check(f"unknown, {degrees} of {2 * half}", found, floor_lux(1000 * 2 ** -((degrees / half) ** 2), degrees))
+
+# Beams read by angles and about an axis that are a degree off.
+held = asked = 0
+for seed in range(5):
+    chance = random.Random(seed)
+    half, power = chance.uniform(16, 24), chance.uniform(1.5, 3)
+    shape = lambda degrees: 2 ** -((abs(degrees) / half) ** power)
+    axis, scale = chance.gauss(0, 1), math.exp(chance.gauss(0, 0.02))
+    read = [(1, 0, 1000 * scale * shape(axis)), (3, 0, 1000 / 9 * scale * shape(axis))]
+    read += [(2, a, 250 * scale * shape(a + axis + chance.gauss(0, 1)) * math.exp(chance.gauss(0, 0.01)))
+             for a in (10, 20, 30, 40)]
+    asks = (0, 5, 15, 25, 35, 50)
+    for degrees, (value, u95) in zip(asks, simulated(session(SPOT, read, 0.02, 0.01), [on_floor(a) for a in asks])):
+        truth = floor_lux(1000 * shape(degrees), degrees)
+        assert u95 > 0 and (degrees > 0 or u95 < 0.08 * value), (seed, degrees, value, u95)
+        asked += 1
+        held += abs(value - truth) <= u95
+print(f"beams: {held} of {asked} held")
+assert held >= 0.9 * asked
 
 # Panels of cos^m.
 panel = session('kind = "rect"\nfixture = "panel"\nsize_m = [0.05, 0.05]\naim = [0, 0, -1]\n', AXIS)

@@ -266,6 +266,13 @@ Result<BeamLight> FitBeamLight(const Observations& observations, const LightDesc
   for (LampInRoom& one : out.estimate.in_room) {
     for (double& c : one.covariance) c *= factor * factor;
   }
+  const std::size_t nodes = out.table.grid().vertical_deg.size();
+  for (std::size_t i = 0; i < nodes; ++i) {
+    const auto from = profile.pattern_sd.begin() + static_cast<std::ptrdiff_t>(i);
+    const bool last = i + 1 == nodes;
+    out.pattern_sd.push_back(factor *
+                             (last ? *std::max_element(from, profile.pattern_sd.end()) : *from));
+  }
   out.gamma_deg = profile.gamma_deg;
   for (const double sd : profile.part_sd) out.part_sd.push_back(factor * sd);
   AddParts(profile, out.estimate);
@@ -311,6 +318,7 @@ void FillBeamLight(BeamLight&& found, FittedLight& out) {
   out.flux_lm = found.flux_lm;
   const double relative = 0.5 * (*found.flux_lm.high - *found.flux_lm.low) / found.flux_lm.value;
   out.distribution = MeasuredDistribution{std::move(found.table)};
+  out.distribution->pattern_sd = std::move(found.pattern_sd);
   double peak = 0.0;
   if (out.intensity_cd) peak = out.intensity_cd->u95 / out.intensity_cd->value / kZ95;
   out.distribution->budget.push_back({"readings", peak, relative / kZ95});

@@ -32,6 +32,7 @@ struct BeamLight {
   bool flat_cone = false;      // the readings are not against the spot of spot_beam.h
   // 1 sigma of the intensity at an angle over the axis's.
   std::vector<double> gamma_deg{}, part_sd{};
+  std::vector<double> pattern_sd{};  // as MeasuredDistribution has it
 };
 
 // m = I(gamma) cr/r^2 + walls + E0, I(gamma) by families compared by evidence (beam_profile.h), r

@@ -275,6 +275,13 @@ Result<BeamProfile> FitBeamProfile(const BeamReadings& readings, const std::stri
     out.candela_sd.push_back(there.sd);
     out.part_sd.push_back(part.sd);
   }
+  const auto peak =
+      static_cast<std::size_t>(std::ranges::max_element(out.candela) - out.candela.begin());
+  for (std::size_t i = 0; i < out.gamma_deg.size(); ++i) {
+    out.pattern_sd.push_back(OverDraws(draws, [&](const BeamDraw& draw) {
+                               return draw.candela[i] / std::max(draw.candela[peak], 1e-300);
+                             }).sd);
+  }
   std::vector<NormalPart> ln;
   for (const SolvedBeam& one : beams) {
     ln.push_back({one.share, one.ln_axial,

@@ -48,7 +48,8 @@ struct BeamProfile {
   std::vector<double> gamma_deg;  // 0 to 90
   std::vector<double> candela;    // mean of the draws, axial_cd at 0
   std::vector<double> candela_sd;
-  std::vector<double> part_sd;  // of the intensity there over the axis's
+  std::vector<double> part_sd;     // of the intensity there over the axis's
+  std::vector<double> pattern_sd;  // of that over the peak's
   Uncertain axial_cd{}, flux_lm{}, beam_deg{}, field_deg{};  // full angles; axis's half and tenth
   double axial_sd_ln = 0.0;
   std::vector<BeamFamilyShare> families;  // likeliest first
