@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What `simulate` says off the axis, against lamps written out here: a spot of stated beam and field (as bright as
 its exported IES file, by this file's own interpolation), one of which nothing is stated, beams read by angles
-that are a degree off, panels that shine by cos^m. Its 95 % must hold them; what faces the
+that are a degree off, a bulb over its base, panels that shine by cos^m. Its 95 % must hold them; what faces the
 axis stays as sure as it was. Written without a header of lightcal."""
 import json
 import math
@@ -104,6 +104,11 @@ for seed in range(5):
         held += abs(value - truth) <= u95
 print(f"beams: {held} of {asked} held")
 assert held >= 0.9 * asked
+
+# A bulb read at its side, then over its base and its crown.
+bulb = session('kind = "point"\nfixture = "bulb"\n', [(0.5, 0, 400), (1, 0, 100), (2, 0, 25)])
+for part in (0.7, 1.3):
+    check(f"bulb that shines {part} times as much up", simulated(bulb, [(0, 0, 3)])[0], 100 * part)
 
 # Panels of cos^m.
 panel = session('kind = "rect"\nfixture = "panel"\nsize_m = [0.05, 0.05]\naim = [0, 0, -1]\n', AXIS)

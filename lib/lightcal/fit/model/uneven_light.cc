@@ -79,7 +79,7 @@ std::optional<UnevenLight> UnevenOf(const Observations& observations,
   if (auto placed = UnevenByPlaces(observations, light)) return placed;
   const std::optional<Vec3> sd = GradientOf(light);
   const bool read = std::ranges::any_of(observations.rows, &Observation::lit);
-  if (!sd || !light.position_m || !read) return std::nullopt;
+  if (!sd || !read) return std::nullopt;
   const double length = light.aim ? Length(*light.aim) : 0.0;
   return UnevenLight{*sd, length > 0.0 ? *light.aim * (1.0 / length) : Vec3{}};
 }
