@@ -37,9 +37,11 @@ Total TotalOf(const PredictedPoint& point, double ambient_lx) {
   return total;
 }
 
-// Unsure as a lamp's intensity is, by a factor.
+// Unsure as a lamp's intensity is, by a factor, until it may be none.
 std::string LuxText(double lux, double u95) {
-  if (!(lux > 0.0)) return "0 lx";
+  if (!(u95 < lux)) {
+    return u95 > 0.0 ? ValueAndInterval(Uncertain{lux, u95, 0.0, lux + u95}, "lx") : "0 lx";
+  }
   return ValueAndInterval(UncertainFromLog(std::log(lux), std::asinh(u95 / lux) / kZ95), "lx");
 }
 
@@ -127,7 +129,9 @@ std::string PlaneText(const Simulated& s) {
       {"most at x, y, z", PlaceText(summary.brightest_m), "m"}};
   if (summary.mean_lx > 0.0) {
     rows.push_back({"U0 (least / mean)", RoundedText(summary.least_lx / summary.mean_lx, 3), ""});
-    const Uncertain part = IntervalOfFactor(summary.median_u95_relative);
+    const double wide = summary.median_u95_relative;
+    const Uncertain part =
+        wide < 1.0 ? IntervalOfFactor(wide) : Uncertain{1.0, wide, 0.0, 1.0 + wide};
     if (IsEven(part)) {
       rows.push_back({"± (95 %, median)", RoundedText(100.0 * part.u95, 2), "%"});
     } else {
