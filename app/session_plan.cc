@@ -109,6 +109,12 @@ std::string AdviceOf(const PlannedLight& planned, const Session& session) {
     advice += advice.empty() ? "" : ". ";
     advice += "No shadow-card reading yet: one measures what walls and other lamps add";
   }
+  if (!session.lit_readings.empty() && session.lights.size() > 1) {
+    advice += advice.empty() ? "" : ". ";
+    advice +=
+        "Each step is of this lamp alone: turn the others off, or read twice, with it on and "
+        "off, the same others lit";
+  }
   return advice;
 }
 

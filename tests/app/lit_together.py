@@ -88,3 +88,6 @@ differ = session("differ", lamps("key", "fill") + read(("key", "fill"), {"key": 
                  read(("key",), {"key": 2.0}, 100.0) + read(("fill",), {"fill": 1.5}, 100.0))
 said = run("fit", differ).stderr
 assert "160.0 less 100.0" in said and "60.00" not in said, said
+
+# A plan is of one lamp alone.
+assert "turn the others off" in run("plan", by_lit, "--steps", "1").stdout
