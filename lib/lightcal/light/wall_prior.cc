@@ -146,9 +146,9 @@ struct PlaceShares {
 // middle.
 constexpr PlaceShares kAnyPlace{0.20, 0.05};
 // Of lamps that nobody names every third stands by walls, and two in three of these have a second
-// surface within half a metre: another wall, the ceiling, a table (traced_rooms --by_walls: as many
-// of two as of one). Near one alone a bulb is much as ordinary ones are, of which most hang under
-// the ceiling.
+// surface within half a metre: another wall, the ceiling, a table (the rooms by walls of
+// traced_rooms: as many of two as of one). Near one alone a bulb is much as ordinary ones are, of
+// which most hang under the ceiling.
 constexpr PlaceShares kOfUnnamed{0.12, 0.22};
 
 // Walls nearby are Lambertian images of the lamp, whose light adds most where the meter is nearest:
