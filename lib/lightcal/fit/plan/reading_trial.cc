@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
-#include <vector>
 
 #include "lightcal/core/stops.h"
 #include "lightcal/fit/plan/expected_reading.h"
@@ -84,24 +84,18 @@ std::optional<ReadingTrial> TryExpected(const KnownSoFar& known, const PlannedRe
 
 namespace {
 
-// The trial of the three whose interval is the median one, by its stops; one that failed leaves
-// all, and of two that did there is none. Between two things that a lamp may be lies what neither
-// would read, and what tells them apart least: the middle of the three is then no reading to
-// expect.
-std::optional<ReadingTrial> MedianOf(const std::optional<ReadingTrial>& low,
-                                     const ReadingTrial& middle,
-                                     const std::optional<ReadingTrial>& high) {
-  const auto least_first = [](const ReadingTrial* a, const ReadingTrial* b) {
-    return std::pair(a->planned.u95_stops, a->planned.u95_relative) <
-           std::pair(b->planned.u95_stops, b->planned.u95_relative);
+// The interval of the three trials is the median one, by its stops; one that failed leaves all.
+ReadingTrial MedianOf(const std::optional<ReadingTrial>& low, ReadingTrial middle,
+                      const std::optional<ReadingTrial>& high) {
+  constexpr double kAll = std::numeric_limits<double>::infinity();
+  const auto widths = [&](const std::optional<ReadingTrial>& trial) {
+    return trial ? std::pair(trial->planned.u95_stops, trial->planned.u95_relative)
+                 : std::pair(kAll, kAll);
   };
-  std::vector<const ReadingTrial*> all = {&middle};
-  for (const auto* side : {&low, &high}) {
-    if (*side) all.push_back(&**side);
-  }
-  std::ranges::stable_sort(all, least_first);
-  if (all.size() < 2) return std::nullopt;
-  return *all[1];
+  std::array<std::pair<double, double>, 3> all = {widths(low), widths(middle), widths(high)};
+  std::ranges::sort(all);
+  std::tie(middle.planned.u95_stops, middle.planned.u95_relative) = all[1];
+  return middle;
 }
 
 }  // namespace

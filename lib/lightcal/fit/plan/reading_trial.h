@@ -59,7 +59,7 @@ struct ReadingTrial {
 inline constexpr double kMostBySettling = 0.45;
 
 // What the reading leaves open, whatever it shows: the median of what each of `likely` leaves, one
-// that no fit explains leaving all, at the one that leaves it. Of a lamp that one normal says, at the illuminance at which the
+// that no fit explains leaving all. Of a lamp that one normal says, at the illuminance at which the
 // reading would change nothing: what a fit with it predicts for it, and again. Where it tells much,
 // the second answer is still drawn to the first guess, and the limit of the series is taken
 // (Aitken, in logarithms). None where a fit fails.
