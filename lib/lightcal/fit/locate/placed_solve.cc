@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/fit/locate/placed_solve.h"
 
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "lightcal/fit/model/least_squares.h"
 
@@ -24,6 +26,23 @@ void CutAmbient(const At& at, double estimate, const PlacedMatrix& covariance,
   const PlacedVector regression = covariance.col(kPlacedAmbient) / variance;
   const double shift = truncated.mean - estimate;
   total += regression * regression.transpose() * (truncated.variance - variance + shift * shift);
+}
+
+// The optimum by TinySolver, which knows no bounds. Where it has less ambient light than none: that
+// with none, if more would be no better.
+std::optional<PlacedTheta> SolveSmall(const PlacedEstimation& estimation,
+                                      const PlacedTheta& start) {
+  auto theta = SolveTiny(estimation, start);
+  if (!theta) return std::nullopt;
+  const bool bounded = estimation.rules[kPlacedAmbient].free;
+  if (!bounded || (*theta)[kPlacedAmbient] > 0.0) return Polish(estimation, *theta);
+  std::array<bool, kPlacedParameters> held{};
+  held[kPlacedAmbient] = true;
+  (*theta)[kPlacedAmbient] = 0.0;
+  theta = SolveTiny(estimation, *theta, held);
+  if (!theta) return std::nullopt;
+  theta = Polish(estimation, *theta);
+  return GradientAt(estimation, *theta)[kPlacedAmbient] >= 0.0 ? theta : std::nullopt;
 }
 
 // 1 sigma of what the influence does to ln E of a row.
@@ -54,6 +73,7 @@ void AddConsidered(const PlacedEstimation& estimation, const PlacedTheta& theta,
 }  // namespace
 
 Result<PlacedTheta> SolvePlaced(const PlacedEstimation& estimation, const PlacedTheta& start) {
+  if (const auto theta = SolveSmall(estimation, start)) return *theta;
   return SolveInFullBy(estimation, start, {.iterations = 100}, "position");
 }
 
