@@ -182,6 +182,8 @@ def main():
         print(kind, "as read ", tally([c for c in cases if c["kind"] == kind and c["how"] == "none"]))
     if "--dump" in sys.argv:
         pathlib.Path(sys.argv[sys.argv.index("--dump") + 1]).write_text(json.dumps(cases, indent=0))
+    if SEEDS < 4:
+        return  # a sanitizer looks on: too few to judge shares by
     mistyped = tally([c for c in cases if c["how"] != "none"])
     as_read = tally([c for c in cases if c["how"] == "none"])
     few = 1 + 0.05 * mistyped["of"]  # one more by chance

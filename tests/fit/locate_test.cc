@@ -16,6 +16,7 @@
 #include "lightcal/fit/fit_light.h"
 #include "lightcal/fit/locate/placed_starts.h"
 #include "located_twin.h"
+#include "trials.h"
 
 namespace lightcal {
 namespace {
@@ -184,7 +185,7 @@ class LocateTwins : public testing::TestWithParam<Scene> {};
 
 TEST_P(LocateTwins, AreFoundAsCloselyAsTheIntervalsSay) {
   const Scene& scene = GetParam();
-  constexpr int kTwins = 1000;
+  constexpr int kTwins = test::TrialsOf(1000);
   std::mt19937_64 random(20261121);
   std::uniform_real_distribution<double> uniform;
   std::vector<double> errors;
@@ -208,6 +209,7 @@ TEST_P(LocateTwins, AreFoundAsCloselyAsTheIntervalsSay) {
                       ? 1
                       : 0;
   }
+  if (test::kUnderAddressSanitizer) return;
   std::ranges::nth_element(errors, errors.begin() + kTwins / 2);
   EXPECT_LE(errors[kTwins / 2], scene.median_at_most_m);
   for (const int count : covered) {
@@ -252,7 +254,7 @@ TEST(LocateRefusals, EveryCocircularLayoutIsNamedAndItsCureCures) {
   std::uniform_real_distribution<double> uniform;
   int near_truth = 0;
   int cured_by_one = 0;
-  constexpr int kSets = 100;
+  constexpr int kSets = std::max(10, test::TrialsOf(100));  // the tenth in one line
   for (int set = 0; set < kSets; ++set) {
     SCOPED_TRACE(set);
     const PlacedLamp lamp = RandomLamp(random);
@@ -289,6 +291,7 @@ TEST(LocateRefusals, EveryCocircularLayoutIsNamedAndItsCureCures) {
     near_truth +=
         Length(*light.position_m - lamp.position_m) < 1.5 * Length(*light.position_u95_m) ? 1 : 0;
   }
+  if (test::kUnderAddressSanitizer) return;
   EXPECT_GE(near_truth, 95);
   EXPECT_GE(cured_by_one, 97);
 }
