@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A panorama of six coloured sides with a sun, calibrated by `dome`, exported, and rendered: the lux and the
 colour of a white card that faces each of six ways, against integrals of the panorama's own formula written
-here. With the sun as a light of its own, and left inside (printed).
-  panorama.py --lightcal BINARY --modules NODE_FOLDER [--work FOLDER] [--engines a,b]
+here. With the sun as a light of its own; with --inside also left inside, and by three's own blur: printed
+beside it, as no bar is set for what nine harmonics make of a sun.
+  panorama.py --lightcal BINARY --modules NODE_FOLDER [--work FOLDER] [--engines a,b] [--inside]
 Exits 1 when a bar is missed."""
 import argparse
 import json
@@ -164,6 +165,7 @@ def main():
     parser.add_argument('--modules', required=True)
     parser.add_argument('--work')
     parser.add_argument('--engines', default=','.join(BARS))
+    parser.add_argument('--inside', action='store_true')
     args = parser.parse_args()
     args.modules = os.path.abspath(args.modules)
     failures = []
@@ -180,7 +182,9 @@ def main():
         if off > SUN_DEGREES:
             failures.append(f'the sun is {off:.2f} degrees off')
         for engine in args.engines.split(','):
-            runs = [('beside', False), ('inside', False)] + ([('beside', True)] if engine == 'three' else [])
+            runs = [('beside', False)]
+            if args.inside:
+                runs += [('inside', False)] + ([('beside', True)] if engine == 'three' else [])
             for case, environment in runs:
                 got = render(args, work, engine, case, environment)
                 errors, tints = {}, {}
