@@ -26,14 +26,14 @@ bool HasWarning(const FittedSession& fitted, const std::string& code) {
 
 const std::vector<double> kSix = {0.5, 0.8, 1.2, 1.8, 2.7, 4.0};
 
-constexpr int kTwins = test::TrialsOf(300);
+constexpr int kBlunderTwins = test::TrialsOf(300);
 
 // Root mean square relative error of I over seeded twins with `blunders` readings three times too
 // high.
 double RmsError(int blunders, int& all_found, const FitSettings& settings = {}) {
   double sum = 0.0;
   all_found = 0;
-  for (int i = 0; i < kTwins; ++i) {
+  for (int i = 0; i < kBlunderTwins; ++i) {
     TwinSession twin(LampTruth{}, 0.01, 1000 + i);
     std::vector<int> bad = {i % 6};
     if (blunders == 2) bad.push_back((i + 1 + i / 6 % 5) % 6);
@@ -48,13 +48,13 @@ double RmsError(int blunders, int& all_found, const FitSettings& settings = {}) 
     sum += error * error;
     all_found += light.fit.rejected == bad ? 1 : 0;
   }
-  return std::sqrt(sum / kTwins);
+  return std::sqrt(sum / kBlunderTwins);
 }
 
 TEST(Robust, F06OneBlunderInSixIsFoundAndCostsNoAccuracy) {
   int found = 0;
   EXPECT_LE(RmsError(1, found), 0.015);
-  EXPECT_GE(found, kTwins - 5);
+  EXPECT_GE(found, kBlunderTwins - 5);
 }
 
 // The reference's own experiment (4.6): the intensity alone is unknown.
@@ -62,7 +62,7 @@ TEST(Robust, OneBlunderInSixLeavesTheIntensityAloneWithinSixTenthsOfAPercent) {
   int found = 0;
   const double rms = RmsError(1, found, FitSettings{.effects = "none"});
   EXPECT_LE(rms, 0.006);
-  EXPECT_GE(found, kTwins - 5);
+  EXPECT_GE(found, kBlunderTwins - 5);
   RecordProperty("rms_ppm", static_cast<int>(1e6 * rms));
 }
 

@@ -40,9 +40,8 @@ struct PlacedEstimation {
 using PlacedCovariance =
     std::array<double, static_cast<std::size_t>(kPlacedParameters) * kPlacedParameters>;
 
-// Minimises 1/2 sum r_i^2 + priors from `start`, E0 >= 0: by TinySolver, where it comes to no end by
-// Ceres in full, then by Gauss-Newton.
-// Fails: no_convergence.
+// Minimises 1/2 sum r_i^2 + priors from `start`, E0 >= 0: by TinySolver, where it comes to no end
+// by Ceres in full, then by Gauss-Newton. Fails: no_convergence.
 [[nodiscard]] Result<PlacedTheta> SolvePlaced(const PlacedEstimation& estimation,
                                               const PlacedTheta& start);
 
