@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "lightcal/core/joined.h"
+#include "lightcal/photometry/half_range.h"
 #include "lightcal_devices/captures/exposure_tags.h"
 #include "lightcal_devices/captures/mapped_file.h"
 #include "lightcal_devices/captures/memory_at_hand.h"
@@ -38,7 +39,7 @@ namespace lightcal::devices {
 namespace {
 
 constexpr double kMostSamples = 1 << 29;
-constexpr float kMostHalf = 65504.0F;
+constexpr float kMostHalf{kLargestHalf};
 constexpr std::string_view kOurPrefix = "lightcal:";
 
 Xy XyOf(const Imath::V2f& v) { return {v.x, v.y}; }

@@ -8,6 +8,7 @@
 
 #include "lightcal/core/file_name.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/photometry/half_range.h"
 #include "lightcal/presets/environment_files.h"
 
 namespace lightcal::preset_text {
@@ -112,7 +113,6 @@ PresetFile PictureFileOf(const PresetLight& light, const std::string& stem,
 }
 
 void WarnOfHalfFloats(const PresetLight& light, std::string_view engine, Warnings& warnings) {
-  constexpr double kMost = 65504.0;
   double beyond = 0.0, whole = 0.0;
   const EnvironmentPicture& picture = *light.environment;
   for (int y = 0; y < picture.height; ++y) {
@@ -123,7 +123,7 @@ void WarnOfHalfFloats(const PresetLight& light, std::string_view engine, Warning
                             static_cast<std::size_t>(x));
       const double top = std::max({p[0], p[1], p[2]});
       whole += std::sin(zenith) * top;
-      beyond += std::sin(zenith) * std::max(0.0, top - kMost);
+      beyond += std::sin(zenith) * std::max(0.0, top - kLargestHalf);
     }
   }
   if (!(beyond > 1e-4 * whole)) return;

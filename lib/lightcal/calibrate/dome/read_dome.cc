@@ -15,6 +15,7 @@
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/camera/sensor_to_xyz.h"
 #include "lightcal/imaging/panorama/compose_views.h"
+#include "lightcal/imaging/scene/flat_top.h"
 #include "lightcal/records/fill_masked.h"
 
 namespace lightcal {
@@ -95,7 +96,8 @@ void TakeStatedScale(const FrameInfo& info, DomeInput& input) {
 }
 
 // A merge says which share of its samples was clipped in every frame: the brightest.
-std::vector<std::uint8_t> ClippedInMerge(const FrameInfo& info, const std::vector<float>& nits) {
+std::vector<std::uint8_t> ClippedInMerge(const FrameInfo& info, const PictureLuminance& luminance) {
+  const std::vector<float>& nits = luminance.nits;
   for (const auto& [name, text] : info.lightcal_attributes) {
     const double share = name == "clipped_fraction" ? ParseNumber(text).value_or(0.0) : 0.0;
     if (!(share > 0.0) || nits.empty()) continue;
@@ -104,26 +106,9 @@ std::vector<std::uint8_t> ClippedInMerge(const FrameInfo& info, const std::vecto
         static_cast<std::ptrdiff_t>(std::clamp(std::round(share * all), 1.0, all));
     std::vector<float> ranked = nits;
     std::ranges::nth_element(ranked, ranked.begin() + (from_top - 1), std::greater<>());
-    const float level = ranked[static_cast<std::size_t>(from_top - 1)];
-    std::vector<std::uint8_t> clipped;
-    clipped.reserve(nits.size());
-    for (const float v : nits) clipped.push_back(v >= level ? 1 : 0);
-    return clipped;
+    return PixelsFrom(luminance.view(), double{ranked[static_cast<std::size_t>(from_top - 1)]});
   }
   return {};
-}
-
-std::vector<std::uint8_t> ClippedFrom(View2d<const float> samples, double level) {
-  std::vector<std::uint8_t> clipped;
-  clipped.reserve(static_cast<std::size_t>(samples.width()) * samples.height());
-  for (int y = 0; y < samples.height(); ++y) {
-    for (int x = 0; x < samples.width(); ++x) {
-      bool any = false;
-      for (int c = 0; c < samples.channels(); ++c) any |= samples(x, y, c) >= level;
-      clipped.push_back(any ? 1 : 0);
-    }
-  }
-  return clipped;
 }
 
 std::vector<float> ScaledSamples(View2d<const float> samples, double nits_per_unit) {
@@ -166,11 +151,11 @@ Result<DomeInput> ReadDomePicture(const std::string& file, const Sources& source
   input.view = frame->info.view;
   input.primaries = frame->info.chromaticities;
   if (request.clip) {
-    input.clipped = ClippedFrom(samples, *request.clip);
+    input.clipped = PixelsFrom(samples, *request.clip);
   } else if (frame->info.levels) {
-    input.clipped = ClippedFrom(samples, frame->info.levels->maximum);
+    input.clipped = PixelsFrom(samples, frame->info.levels->maximum);
   } else {
-    input.clipped = ClippedInMerge(frame->info, luminance->nits);
+    input.clipped = ClippedInMerge(frame->info, *luminance);
   }
 
   Dome& dome = input.dome;

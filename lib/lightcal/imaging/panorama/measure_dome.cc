@@ -16,6 +16,7 @@
 #include "lightcal/imaging/panorama/turn_north.h"
 #include "lightcal/imaging/scene/flat_top.h"
 #include "lightcal/imaging/scene/picture_luminance.h"
+#include "lightcal/photometry/half_range.h"
 
 namespace lightcal {
 namespace {
@@ -25,7 +26,6 @@ constexpr int kPlateau = 2;
 // What a light that may be clipped may hold of all that the meter saw: under a clear sky the sun
 // has up to nine tenths.
 constexpr double kMostMissing = 0.9;
-constexpr double kFormatLimit = 65504.0;  // of 16 bit floats
 constexpr double kConflict = 0.25;
 constexpr double kMostHidden = 0.03;  // of a meter's view, in no picture
 constexpr double kMostHiddenByBall = 0.1;
@@ -41,7 +41,7 @@ Result<void> CheckBrightness(const DomeInput& input, Warnings& warnings) {
     return AboutFile("all_black", input, "no pixel is above 0; expose longer, or merge a bracket");
   }
   if (*least != *most) return {};
-  if (std::abs(*most - kFormatLimit) < 1.0) {
+  if (std::abs(*most - kLargestHalf) < 1.0) {
     return AboutFile("all_saturated", input,
                      "every pixel is at the format's limit; expose shorter, or merge a bracket");
   }
@@ -103,13 +103,6 @@ Result<double> CheckSeen(const std::optional<DomeReading>& reading, MeasuredDome
                     " % of what lights it from a uniform sphere; turn it to where the pictures "
                     "look ({dome.normal}), or add views")
                        .c_str());
-}
-
-std::vector<std::uint8_t> PixelsAt(float level, const std::vector<float>& nits) {
-  std::vector<std::uint8_t> at;
-  at.reserve(nits.size());
-  for (const float v : nits) at.push_back(v >= level ? 1 : 0);
-  return at;
 }
 
 // `clipped_always`: that something is clipped is known, be it a pixel or two.
@@ -213,7 +206,7 @@ void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>&
   // A card that took away more than any light shows knows of one that is clipped.
   if (one_reading ? input.absolute && exceeds()
                   : reading && ShadedBeyondPixels(*reading, measured)) {
-    input.clipped = PixelsAt(*brightest, input.dome.nits);
+    input.clipped = PixelsFrom(input.dome.luminance(), double{*brightest});
     measured.lights = FindLights(input, true);
     return;
   }

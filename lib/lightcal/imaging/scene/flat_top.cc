@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+
+#include "lightcal/photometry/half_range.h"
 
 namespace lightcal {
 
@@ -27,8 +30,21 @@ bool IsCutOff(const FlatTop& top, int least) {
 }
 
 bool IsFormatsEnd(float sample) {
-  constexpr std::array kEnds = {1.0F, 255.0F, 4095.0F, 16383.0F, 65504.0F, 65535.0F};
+  constexpr std::array kEnds = {1.0F, 255.0F, 4095.0F, 16383.0F, float{kLargestHalf}, 65535.0F};
   return std::ranges::find(kEnds, sample) != kEnds.end();
+}
+
+std::vector<std::uint8_t> PixelsFrom(View2d<const float> samples, double level) {
+  std::vector<std::uint8_t> from;
+  from.reserve(static_cast<std::size_t>(samples.width()) * samples.height());
+  for (int y = 0; y < samples.height(); ++y) {
+    for (int x = 0; x < samples.width(); ++x) {
+      bool any = false;
+      for (int c = 0; c < samples.channels(); ++c) any |= double{samples(x, y, c)} >= level;
+      from.push_back(any ? 1 : 0);
+    }
+  }
+  return from;
 }
 
 }  // namespace lightcal

@@ -2,7 +2,11 @@
 // Was a picture cut off at its brightest?
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
+
+#include "lightcal/core/view2d.h"
 
 namespace lightcal {
 
@@ -19,5 +23,8 @@ struct FlatTop {
 
 // Whether formats end here: full scale of integers and of what is scaled to 1, 16 bit floats.
 [[nodiscard]] bool IsFormatsEnd(float sample);
+
+// Row after row 1 for each pixel of which a sample is at the level or above, else 0.
+[[nodiscard]] std::vector<std::uint8_t> PixelsFrom(View2d<const float> samples, double level);
 
 }  // namespace lightcal
