@@ -160,21 +160,34 @@ bool EndsInFewPixels(const Dome& dome, float brightest) {
   return at_limit<kFew * kSphere&& double{brightest}> kFarAbove * sum / kSphere;
 }
 
-// What may be clipped, where that is so.
-std::string SuspectOf(const MeasuredDome& measured, float brightest, bool has_reading) {
+// What may be clipped.
+struct Suspect {
+  int pixels = 0;
+  // Of the light they are of; absent: a few pixels far above the rest, which are none.
+  std::optional<AzimuthElevation> light;
+};
+std::optional<Suspect> SuspectOf(const MeasuredDome& measured, float brightest) {
   const auto light = std::ranges::find_if(measured.lights, [&](const DomeLight& one) {
     return one.body.peak_nits >= double{brightest};
   });
   if (light != measured.lights.end()) {
-    const AzimuthElevation at = AnglesOf(TurnedNorth(light->direction, measured.north));
-    const int pixels = light->body.plateau;
-    return std::to_string(pixels) + (pixels == 1 ? " pixel" : " pixels") +
-           " of the light at azimuth " + RoundedText(at.azimuth_deg, 3) + ", elevation " +
-           RoundedText(at.elevation_deg, 3);
+    return Suspect{light->body.plateau, AnglesOf(TurnedNorth(light->direction, measured.north))};
   }
-  // Only a reading would be divided by what they lack.
-  if (!has_reading || !EndsInFewPixels(measured.input.dome, brightest)) return "";
-  return "a pixel or a few that are far brighter than the rest";
+  if (!EndsInFewPixels(measured.input.dome, brightest)) return std::nullopt;
+  return Suspect{};
+}
+
+// "2 pixels of the light at ... share the picture's largest value"
+std::string WordsOf(const Suspect& suspect) {
+  constexpr const char* kShare = " share the picture's largest value";
+  if (!suspect.light) {
+    return std::string("a pixel or a few that are far brighter than the rest") + kShare;
+  }
+  const bool one = suspect.pixels == 1;
+  return std::to_string(suspect.pixels) + (one ? " pixel" : " pixels") +
+         " of the light at azimuth " + RoundedText(suspect.light->azimuth_deg, 3) + ", elevation " +
+         RoundedText(suspect.light->elevation_deg, 3) +
+         (one ? " ends at the picture's largest value" : kShare);
 }
 
 // Whether a card took away more than the pixels of any light give.
@@ -196,7 +209,9 @@ void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>&
   const std::optional<float> brightest = CutOffAt(input.dome);
   if (!brightest) return;
   const bool one_reading = reading && !reading->shaded;
-  if (SuspectOf(measured, *brightest, reading.has_value()).empty()) return;
+  const std::optional<Suspect> suspect = SuspectOf(measured, *brightest);
+  // Only a reading would be divided by what a few pixels lack.
+  if (!suspect || (!suspect->light && !reading)) return;
   const auto exceeds = [&] {
     const double seen =
         IlluminanceOn(input.dome.luminance(), input.dome.grid(), reading->normal).value();
@@ -210,18 +225,14 @@ void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>&
     measured.lights = FindLights(input, true);
     return;
   }
-  const std::string suspect = SuspectOf(measured, *brightest, one_reading);
-  if (suspect.empty()) return;
+  if (!suspect->light && !one_reading) return;
   if (one_reading) {
     const double of_file = input.scale_u95_relative.value_or(kUnstatedScaleU95);
     measured.missing_sd = (input.absolute ? of_file : kMostMissing) / kZ95;
   }
   measured.warnings.push_back(
       {"maybe_clipped", input.files.front(),
-       suspect +
-           (suspect.starts_with("1 ") ? " ends at the picture's largest value"
-                                      : " share the picture's largest value") +
-           "; clipped, they lack light" +
+       WordsOf(*suspect) + "; clipped, they lack light" +
            (one_reading ? " that the meter saw, and the scale holds that" : "") +
            ": say from where samples are clipped ({dome.clip}; above them all if these were drawn) "
            "and read again with the light shaded ({dome.shaded})"});
