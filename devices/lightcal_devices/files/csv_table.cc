@@ -29,16 +29,10 @@ std::string_view HeaderLine(std::string_view text) {
   return {};
 }
 
-bool HasDecimalComma(const CsvTable& table, char delimiter) {
-  if (delimiter == ',') return false;
-  for (std::size_t column = 0; column < table.columns.size(); ++column) {
-    if (IsWord(table.columns[column].quantity)) continue;
-    for (const Row& row : table.rows) {
-      if (CellAt(row, column).find(',') == std::string_view::npos) continue;
-      if (ParseNumber(CellAt(row, column), true)) return true;
-    }
-  }
-  return false;
+bool WritesDecimalComma(const CsvTable& table, char delimiter) {
+  return HasDecimalComma(table.rows, delimiter, [&](std::size_t column) {
+    return column < table.columns.size() && !IsWord(table.columns[column].quantity);
+  });
 }
 
 // Runs of blanks become one tab, so that columns between blanks read as any others.
@@ -181,6 +175,18 @@ void WarnOfThousands(CsvTable& table, char delimiter) {
   }
 }
 
+// A fraction, and nothing above 1 or in percent by its own sign.
+template <class Cells>
+bool MayBePartsOfOne(Cells&& cells, bool decimal_comma) {
+  double most = 0.0;
+  for (const std::string_view cell : cells) {
+    const auto number = ParseNumber(cell, decimal_comma);
+    if (!number || *number > 1.0) return false;
+    most = std::max(most, *number);
+  }
+  return most > 0.0;
+}
+
 // A column named timestamp is the reading's time where every cell tells one and no other column
 // does; one named dimmer is in percent unless it may be parts of 1.
 Result<void> SettleByCells(CsvTable& table) {
@@ -202,17 +208,7 @@ Result<void> SettleByCells(CsvTable& table) {
     }
     if (column.quantity != CsvQuantity::kDimmerUnsaid) continue;
     column.quantity = CsvQuantity::kState;
-    // A fraction, and nothing above 1 or in percent by its own sign.
-    const bool parts_of_one = std::ranges::all_of(cells(i),
-                                                  [&](std::string_view cell) {
-                                                    const auto number =
-                                                        ParseNumber(cell, table.decimal_comma);
-                                                    return number && *number <= 1.0;
-                                                  }) &&
-                              std::ranges::any_of(cells(i), [&](std::string_view cell) {
-                                return ParseNumber(cell, table.decimal_comma).value_or(0.0) > 0.0;
-                              });
-    if (parts_of_one) {
+    if (MayBePartsOfOne(cells(i), table.decimal_comma)) {
       return Refused("units_ambiguous", table.name + ", column " + column.written,
                      "holds no value above 1: are they parts of 1, or percent? Write percent, and "
                      "name it state.dimmer");
@@ -284,7 +280,7 @@ Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name) 
                        std::to_string(table.columns.size()) +
                        "; numbers with a decimal comma need ';' between the columns");
   }
-  table.decimal_comma = HasDecimalComma(table, delimiter);
+  table.decimal_comma = WritesDecimalComma(table, delimiter);
   if (auto settled = SettleByCells(table); !settled) return Propagate(std::move(settled));
   WarnOfThousands(table, delimiter);
   return table;
@@ -312,7 +308,7 @@ Result<CsvTable> TableOfColumns(std::string_view text, std::string_view name,
   if (!rows) return Propagate(std::move(rows));
   std::erase_if(*rows, IsCommentOrEmpty);
   table.rows = *std::move(rows);
-  table.decimal_comma = HasDecimalComma(table, delimiter);
+  table.decimal_comma = WritesDecimalComma(table, delimiter);
   if (auto dropped = DropTitles(table); !dropped) return Propagate(std::move(dropped));
   if (auto settled = SettleByCells(table); !settled) return Propagate(std::move(settled));
   WarnOfThousands(table, delimiter);

@@ -171,6 +171,19 @@ std::string_view CellAt(const Row& row, std::size_t column) {
   return column < row.cells.size() ? std::string_view(row.cells[column]) : std::string_view();
 }
 
+bool HasDecimalComma(std::span<const Row> rows, char delimiter,
+                     const std::function<bool(std::size_t column)>& may_hold) {
+  if (delimiter == ',') return false;
+  return std::ranges::any_of(rows, [&](const Row& row) {
+    for (std::size_t column = 0; column < row.cells.size(); ++column) {
+      const std::string& cell = row.cells[column];
+      if (cell.find(',') == std::string::npos || !may_hold(column)) continue;
+      if (ParseNumber(cell, true)) return true;
+    }
+    return false;
+  });
+}
+
 bool HasLineStarting(std::string_view text, std::string_view prefix) {
   for (std::size_t at = 0; at < text.size();) {
     if (text.substr(at).starts_with(prefix)) return true;

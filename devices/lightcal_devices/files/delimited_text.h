@@ -2,6 +2,7 @@
 // Exported text files as UTF-8 rows of cells. libcsv does the splitting (RFC 4180 quotes).
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <span>
@@ -35,6 +36,11 @@ using RowVisitor = std::function<Result<void>(int line, std::span<const std::str
 
 // The cell, or "" where the row is shorter.
 [[nodiscard]] std::string_view CellAt(const Row& row, std::size_t column);
+
+// Between tabs or semicolons a number such as 0,5 has a decimal comma: whether one stands in a
+// column that may hold numbers.
+[[nodiscard]] bool HasDecimalComma(std::span<const Row> rows, char delimiter,
+                                   const std::function<bool(std::size_t column)>& may_hold);
 
 // Whether any line of the text begins so.
 [[nodiscard]] bool HasLineStarting(std::string_view text, std::string_view prefix);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -69,16 +70,6 @@ struct GelTable {
   std::vector<std::pair<std::size_t, WavelengthColumn>> wavelengths;
   bool decimal_comma = false;
 };
-
-// Between tabs or semicolons a number such as 0,5 has a decimal comma.
-bool HasDecimalComma(const std::vector<Row>& rows, char delimiter) {
-  if (delimiter == ',') return false;
-  return std::ranges::any_of(rows.begin() + 1, rows.end(), [](const Row& row) {
-    return std::ranges::any_of(row.cells, [](const std::string& cell) {
-      return cell.find(',') != std::string::npos && ParseNumber(cell, true).has_value();
-    });
-  });
-}
 
 GelTable TableOf(const Row& header, bool decimal_comma) {
   constexpr std::array<std::string_view, 6> kClaims = {"tungsten_y_percent", "tungsten_x",
@@ -201,10 +192,7 @@ Result<GelSet> SpdxGels(std::string_view text, std::string_view name) {
 }
 
 Result<GelSet> GelsOfTable(std::string_view text, std::string_view name) {
-  const std::string_view first_line = text.substr(0, text.find('\n'));
-  const char delimiter = first_line.find('\t') != first_line.npos  ? '\t'
-                         : first_line.find(';') != first_line.npos ? ';'
-                                                                   : ',';
+  const char delimiter = files::DelimiterOf(text.substr(0, text.find('\n')));
   auto rows = files::ReadRows(text, delimiter);
   if (!rows) return Propagate(std::move(rows));
   std::erase_if(*rows, [](const Row& row) {
@@ -213,7 +201,8 @@ Result<GelSet> GelsOfTable(std::string_view text, std::string_view name) {
   });
   if (rows->size() < 2)
     return BadGels(name, "holds no filter; understood are " + std::string(kGelForms));
-  const bool decimal_comma = HasDecimalComma(*rows, delimiter);
+  const bool decimal_comma = files::HasDecimalComma(std::span<const Row>(*rows).subspan(1),
+                                                    delimiter, [](std::size_t) { return true; });
   const auto& header = rows->front().cells;
   const auto wavelength = std::ranges::find_if(header, [](const std::string& cell) {
     const std::string lower = LowerAscii(TrimBlanks(cell));
