@@ -9,7 +9,6 @@ namespace lightcal {
 namespace {
 
 constexpr double kMostPositionIndex = 16.0;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // sum of L^2 w/P^2: what four formulas weigh sources by.
 double WeighedSources(std::span<const GlareSource> sources) {
@@ -30,8 +29,8 @@ double PositionIndex(const Vec3& direction) {
     const double r = ahead > 0.0 ? std::min(aside / ahead, 3.0) : 3.0;
     return 1.0 + (r < 0.6 ? 0.8 : 1.2) * r;
   }
-  const double s = std::atan2(aside, ahead) / kDegree;
-  const double t = std::atan2(std::abs(right), up) / kDegree;
+  const double s = std::atan2(aside, ahead) / kRadiansPerDegree;
+  const double t = std::atan2(std::abs(right), up) / kRadiansPerDegree;
   const double first = 35.2 - 0.31889 * t - 1.22 * std::exp(-2.0 * t / 9.0);
   const double second = 21.0 + 0.26667 * t - 0.002963 * t * t;
   return std::min(kMostPositionIndex, std::exp(first * s / 1e3 + second * s * s / 1e5));

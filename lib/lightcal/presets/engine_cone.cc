@@ -17,14 +17,13 @@ namespace lightcal {
 namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2.0;
-constexpr double kDegree = std::numbers::pi / 180.0;
 // Godot's: at 90 degrees some versions of 4 cull a spot by the tangent of that angle, negative in
 // single precision (light_get_aabb), and a shadow's camera has no width; 89 leaves 1.7 % of a
 // cosine's rim.
-constexpr double kWidestPower = 89.0 * kDegree;
+constexpr double kWidestPower = 89.0 * kRadiansPerDegree;
 constexpr double kHardShare = 0.9999;  // the inner angle of an edge, over the outer
 constexpr double kDark = 1e-3;         // of the axial intensity: where a beam ends
-constexpr double kBeyond = 5.0 * kDegree;
+constexpr double kBeyond = 5.0 * kRadiansPerDegree;
 constexpr double kLeastRim = 1e-4;  // Godot's shader takes no smaller u
 constexpr int kBeamSteps = 300, kRestSteps = 60, kTurns = 24;
 
@@ -300,7 +299,7 @@ std::optional<BeamProfile> ProfileOf(const IntensityTable& table) {
     beam.most.push_back(most);
   };
   // Where it ends, to two degrees; then fine within and coarse beyond.
-  for (int i = 0; i <= 90; ++i) add(2.0 * kDegree * i);
+  for (int i = 0; i <= 90; ++i) add(2.0 * kRadiansPerDegree * i);
   const double end = std::min(std::numbers::pi, EndOf(beam) + kBeyond);
   beam = {};
   for (int i = 0; i <= kBeamSteps; ++i) add(end * i / kBeamSteps);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -24,7 +23,6 @@ using fit::ChartGrid;
 using fit::ChartSample;
 using fit::SurfaceProblem;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kFewestSamples = 100;
 constexpr double kAzimuthStep = 5.0;
 constexpr std::array<int, 5> kIntervals = {6, 9, 13, 18, 24};  // knots over the longer side
@@ -100,13 +98,13 @@ struct Nodes {
 };
 
 Nodes NodesFor(const Surface& surface, double covered) {
-  const double spacing_deg = surface.grid.spacing / kDegree;
+  const double spacing_deg = surface.grid.spacing / kRadiansPerDegree;
   double step = 0.5;
   for (const double coarser : {1.0, 2.0, 2.5}) {
     if (coarser <= spacing_deg / 4.0) step = coarser;
   }
   Nodes nodes;
-  const int count = static_cast<int>(covered / kDegree / step);
+  const int count = static_cast<int>(covered / kRadiansPerDegree / step);
   for (int i = 0; i <= count; ++i) nodes.gamma_deg.push_back(step * i);
   for (double c = 0.0; c < 360.0 - 1e-9; c += kAzimuthStep) nodes.c_deg.push_back(c);
   return nodes;
@@ -116,8 +114,8 @@ template <class Visit>
 void ForEachNode(const Nodes& nodes, const Visit& visit) {
   for (const double c : nodes.c_deg) {
     for (const double gamma : nodes.gamma_deg) {
-      visit(gamma * kDegree * std::cos(c * kDegree), gamma * kDegree * std::sin(c * kDegree),
-            gamma * kDegree);
+      visit(gamma * kRadiansPerDegree * std::cos(c * kRadiansPerDegree),
+            gamma * kRadiansPerDegree * std::sin(c * kRadiansPerDegree), gamma * kRadiansPerDegree);
     }
   }
 }
@@ -136,7 +134,8 @@ Result<IntensityTable> TableOf(const Surface& surface, const std::vector<double>
 // The factor of each coefficient in the flux: nodes weighted by their solid angle.
 std::vector<double> FluxFunctional(const Surface& surface, const Nodes& nodes) {
   std::vector<double> out(static_cast<std::size_t>(surface.grid.Size()), 0.0);
-  const double cell = kAzimuthStep * kDegree * (nodes.gamma_deg[1] - nodes.gamma_deg[0]) * kDegree;
+  const double cell = kAzimuthStep * kRadiansPerDegree * (nodes.gamma_deg[1] - nodes.gamma_deg[0]) *
+                      kRadiansPerDegree;
   ForEachNode(nodes, [&](double u, double v, double gamma) {
     const ChartGrid::Support support = surface.grid.At(u, v);
     for (std::size_t i = 0; i < support.index.size(); ++i) {
@@ -310,7 +309,7 @@ Result<FittedDistribution> FitDistribution(const DistributionData& data) {
                        std::to_string(kFewestSamples) + " are needed");
   }
   const double covered = fit::CoveredCone(chart);
-  if (!(covered > 3.0 * kDegree)) {
+  if (!(covered > 3.0 * kRadiansPerDegree)) {
     return Refused("axis_not_covered", data.light,
                    "the wall was not seen on every side of the lamp's aim; give aim = the middle "
                    "of what the picture shows, or show more of the wall");
@@ -337,7 +336,7 @@ Result<FittedDistribution> FitDistribution(const DistributionData& data) {
   out.rejected = rejected;
   out.degrees_of_freedom =
       std::max(0, out.samples - rejected - static_cast<int>(surface.coefficients.size()));
-  out.spacing_deg = surface.grid.spacing / kDegree;
+  out.spacing_deg = surface.grid.spacing / kRadiansPerDegree;
   out.rms_relative = RmsOf(surface, chart, out.table.peak().intensity.value());
   out.interpolated_share = InterpolatedShare(surface, chart, nodes);
   AddNoise(surface, chart, nodes, out);

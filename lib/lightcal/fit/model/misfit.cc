@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
 #include "lightcal/fit/model/hypotheses.h"
 
 namespace lightcal::fit {
@@ -116,7 +117,6 @@ bool RejectedAsNoBlunders(const std::vector<ReadAt>& places) {
 // The one reading without which the rest agree.
 std::optional<std::string> OneReading(const Estimation& all, const Prepared& prepared,
                                       const Observations& observations) {
-  constexpr double kSquareFoot = 10.7639;
   if (all.rows.size() < 4 || all.rows.size() > 40) return std::nullopt;
   for (int i = 0; i < prepared.own_rows; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -127,7 +127,7 @@ std::optional<std::string> OneReading(const Estimation& all, const Prepared& pre
     if (!theta || ContradictionOf(rest, *theta).Probability() < kLeastProbabilityOfRest) continue;
     const Observation& o = observations.rows[static_cast<std::size_t>(prepared.observation[at])];
     const double ratio = all.rows[at].measured / RowIlluminance(all.rows[at], theta->data());
-    const double foot = std::abs(std::log(ratio / kSquareFoot));
+    const double foot = std::abs(std::log(ratio / kLuxPerFootcandle));
     const std::string apart =
         NameOfReading(o) + " alone contradicts the others, by a factor of " + RoundedText(ratio, 3);
     if (foot < 0.1) return apart + ": was its distance read in feet?";

@@ -6,9 +6,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "lightcal/core/units.h"
 #include "lightcal/imaging/panorama/aim_bundle.h"
 #include "lightcal/imaging/panorama/aim_covariance.h"
 #include "lightcal/imaging/panorama/view_tree.h"
@@ -16,7 +16,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kFocalSd = 0.03, kFreeFocalSd = 1.0;
 constexpr double kToleranceShare = 0.006;  // of RANSAC, of the longer side
 constexpr double kNarrowest = 25.0, kWidestRect = 120.0, kWidestFisheye = 220.0, kFovStep = 1.06;
@@ -61,7 +60,7 @@ double FocalThatAgrees(const AimQuestion& question, std::vector<ViewPair> pairs)
   for (double degrees = kNarrowest; degrees < (rect ? kWidestRect : kWidestFisheye);
        degrees *= kFovStep) {
     PictureView view = question.view;
-    view.field_of_view = Radians(degrees * kDegree);
+    view.field_of_view = RadiansFromDegrees(degrees);
     const double focal = FocalOf(view);
     std::size_t agreeing = 0;
     for (const ViewPair& pair : pairs) {
@@ -144,7 +143,7 @@ SolvedAims AimsOf(const AimBundle& bundle, const AimVector& at) {
     aims.axes.push_back(axes);
     const auto place = static_cast<Eigen::Index>(3 * v);
     const Eigen::Matrix3d own = covariance.block<3, 3>(place, place);
-    aims.u95_deg.push_back(Length95(own) / kDegree);
+    aims.u95_deg.push_back(Length95(own) / kRadiansPerDegree);
   }
   return aims;
 }

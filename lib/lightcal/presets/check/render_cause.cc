@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "lightcal/colorimetry/srgb_encoding.h"
+#include "lightcal/core/units_text.h"
 #include "lightcal/presets/check/reader_parts.h"
 #include "lightcal/presets/check/render_shape.h"
 
@@ -185,8 +186,8 @@ std::vector<RenderCause> KnownFactors(const CheckedRig& rig) {
       {"diameter_for_radius", "a diameter was given as a radius, or a radius as a diameter", 0.25},
       {"centimetres", "centimetres and metres are mixed: 1 cd/cm2 = 10^4 cd/m2", 1e4},
       {"centimetres", "centimetres and metres are mixed: 1 cd/m2 = 10^-4 cd/cm2", 1e-4},
-      {"footcandles", "footcandles were taken for lux (or feet for metres)", 1 / 10.7639},
-      {"footcandles", "lux were taken for footcandles (or metres for feet)", 10.7639},
+      {"footcandles", "footcandles were taken for lux (or feet for metres)", 1 / kLuxPerFootcandle},
+      {"footcandles", "lux were taken for footcandles (or metres for feet)", kLuxPerFootcandle},
       {"exposure_missing",
        "the exposure was not applied: samples are cd/m2 (give {render.engine} three?)",
        1 / rig.scale},
