@@ -65,6 +65,7 @@ OiioOutcome ReadOpened(OIIO::ImageInput& input, bool with_samples, double memory
   picture.top_code = spec.format.size() > 1 ? 0xFFFF : 0xFF;
   for (int c = 0; c < picture.channels; ++c) picture.channel_names.push_back(spec.channel_name(c));
   TakeAttributes(spec, picture);
+  picture.orientation = spec.get_int_attribute("Orientation", 1);
   if (with_samples && !ReadSamples(input, picture)) {
     error = input.geterror();
     return OiioOutcome::kBad;

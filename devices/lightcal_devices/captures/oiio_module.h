@@ -14,6 +14,7 @@ namespace lightcal::devices {
 struct OiioPicture {
   int width = 0, height = 0;
   int channels = 0;       // colour channels: 1 or 3
+  int orientation = 1;    // 1 to 8, of TIFF 6.0 and EXIF
   bool is_float = false;  // scene-linear floats, else codes
   std::uint16_t top_code = 0;
   std::vector<std::string> channel_names;

@@ -103,6 +103,33 @@ Result<void> TakeRadianceHeader(std::string_view bytes, FrameInfo& info) {
   return {};
 }
 
+// Finished pictures stand as their Orientation says they are shown (TIFF 6.0: 1 the first row
+// above, 2 to 4 mirrored and turned in place, 5 to 8 with rows for columns). Codes stay where the
+// sensor has them, as its flat fields and masks do.
+void TurnAsShown(OiioPicture& picture) {
+  const int tag = picture.orientation;
+  if (!picture.is_float || tag < 2 || tag > 8) return;
+  const int stored_width = picture.width, stored_height = picture.height;
+  const bool rows_for_columns = tag >= 5;
+  const bool from_right = tag == 2 || tag == 3 || tag == 7 || tag == 8;
+  const bool from_below = tag == 3 || tag == 4 || tag == 6 || tag == 7;
+  if (rows_for_columns) std::swap(picture.width, picture.height);
+  if (picture.floats.empty()) return;
+  std::vector<float> shown;
+  shown.reserve(picture.floats.size());
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      int column = rows_for_columns ? y : x, row = rows_for_columns ? x : y;
+      if (from_right) column = stored_width - 1 - column;
+      if (from_below) row = stored_height - 1 - row;
+      const auto at = (std::ptrdiff_t{row} * stored_width + column) * picture.channels;
+      const auto pixel = picture.floats.begin() + at;
+      shown.insert(shown.end(), pixel, pixel + picture.channels);
+    }
+  }
+  picture.floats = std::move(shown);
+}
+
 struct Opened {
   MappedFile file;
   std::string format;
@@ -137,6 +164,7 @@ Result<OiioPicture> ReadThroughModule(const Opened& opened, const std::string& p
   std::string error;
   switch ((*module)(opened.ForModule(path), with_samples, picture, error)) {
     case OiioOutcome::kRead:
+      TurnAsShown(picture);
       return picture;
     case OiioOutcome::kTooLarge:
       return Refused("too_large", path, "it has more than 5e8 samples");
