@@ -105,6 +105,29 @@ def a_reading_on_the_axis_leaves_the_beam():
     assert gltf_light(HOME / "key")["type"] == "spot"
 
 
+def the_flux_of_a_read_beam_holds_angles_that_are_a_tenth_off():
+    """Beams between the four shapes whose printed angle is 10 % (1 sigma) off, read on their axis."""
+    chance, theta = np.random.default_rng(3), np.linspace(0, np.pi / 2, 2001)
+    for beam in (20, 40, 90):
+        session = HOME / "tenth.toml"
+        session.write_text(f'lightcal = 1\n[room]\ndark = true\n[[light]]\nname = "k"\nkind = "spot"\nbeam_deg = {beam}\n'
+                           '[[meter]]\nname = "m"\nsigma_relative = 0.01\n' + "".join(
+                               f'[[reading]]\nlight = "k"\nmeter = "m"\ndistance_m = {d}\nilluminance_lx = {1000 / d**2}\n'
+                               for d in (1, 2, 4)))
+        flux = answer("fit", session)["lights"][0]["flux_lm"]
+        held = 0
+        for _ in range(400):
+            half = np.radians(beam / 2) * np.exp(chance.normal(0, 0.1))
+            n = math.log(0.5) / math.log(math.cos(half))
+            cosine = np.cos(theta) ** n
+            lobes = np.array([theta < half, cosine, 2 ** -((theta / half) ** 2), cosine])
+            steradians = 2 * np.pi * np.sum(lobes * np.sin(theta), axis=1) * (theta[1] - theta[0])
+            steradians[3] *= 1.5  # it spills a third of its light
+            held += flux["low95"] <= 1000 * steradians @ chance.dirichlet(np.ones(4)) <= flux["high95"]
+        print(f"beam {beam}: {flux['value']:.3g} lm, {flux['low95']:.3g} to {flux['high95']:.3g}; {held} of 400 held")
+        assert 0.93 <= held / 400, (beam, held)
+
+
 def the_beam_of_a_lambertian_face_is_lamberts():
     bare = answer("quick", "--lumens", 4000, "--size", "60x60cm", "--fixture", "panel")["lights"][0]
     light = answer("quick", "--lumens", 4000, "--size", "60x60cm", "--fixture", "panel", "--kind", "rect",
@@ -120,7 +143,8 @@ def the_beam_of_a_lambertian_face_is_lamberts():
 
 
 PARTS = {"beams": (a_stated_beam_is_what_is_exported, that_it_is_drawn_is_said, a_stated_field_is_in_it_too,
-                   an_outer_angle_carries_the_lumens, a_reading_on_the_axis_leaves_the_beam),
+                   an_outer_angle_carries_the_lumens, a_reading_on_the_axis_leaves_the_beam,
+                   the_flux_of_a_read_beam_holds_angles_that_are_a_tenth_off),
          "faces": (the_beam_of_a_lambertian_face_is_lamberts,)}
 for part in PARTS[sys.argv[2]]:
     part()

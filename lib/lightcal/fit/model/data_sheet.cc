@@ -9,6 +9,7 @@
 
 #include "lightcal/core/normal_mixture.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/beam/beam_rows.h"
 #include "lightcal/fit/beam/stated_beam.h"
 #include "lightcal/fit/model/fill_light.h"
 #include "lightcal/light/beam_ensemble.h"
@@ -57,6 +58,23 @@ Uncertain FlatByBeam(double flux, Radians beam, const BeamSolidAngles& beams) {
   return FromInterval(flux / omega * std::exp(-spread), flux / omega * std::exp(spread));
 }
 
+// 1 sigma by which printed angles that are a tenth off move ln of such beams' solid angle: narrow
+// ones go as the angle squared.
+double SdByStatedAngle(const LightDescription& light) {
+  const auto ln_middle = [&](double part) -> std::optional<double> {
+    LightDescription off = light;
+    off.beam = *light.beam * part;
+    if (light.field) off.field = *light.field * part;
+    const auto beams = BeamsOf(off);
+    if (!beams) return std::nullopt;
+    return 0.5 * std::log(beams->least.value() * beams->most.value());
+  };
+  const auto middle = ln_middle(1.0), narrow = ln_middle(1.0 / (1.0 + kSheetAngle));
+  if (!middle || !narrow) return 0.0;
+  const auto wide = ln_middle(1.0 + kSheetAngle);
+  return wide ? 0.5 * (*wide - *narrow) : *middle - *narrow;
+}
+
 }  // namespace
 
 FluxSpread FluxSpreadOf(const LightDescription& light) {
@@ -65,7 +83,8 @@ FluxSpread FluxSpreadOf(const LightDescription& light) {
   constexpr FluxSpread kAny = {0.0089, 1.0};
   if (light.kind == LightKind::kSphere) return {1.0, 1.0};
   if (const auto beams = BeamsOf(light)) {
-    const double ends = std::sqrt(beams->most.value() / beams->least.value());
+    const double of_shape = 0.5 * std::log(beams->most.value() / beams->least.value());
+    const double ends = std::exp(std::hypot(of_shape, kZ95 * SdByStatedAngle(light)));
     return {1.0 / ends, ends};
   }
   if (light.kind != LightKind::kPoint) return {1.0 / (1.0 + kKindSpread), 1.0 + kKindSpread};
