@@ -260,6 +260,7 @@ Result<Simulated> Prepare(const SimulateOptions& options, const Input& input, do
   out.settings.finite_source = effects->finite_source;
   out.settings.room_bounce = effects->room_bounce;
   out.settings.room = *room;
+  if (input.session) out.surroundings = input.session->surroundings;
   for (const FittedLight& light : input.lights.lights) {
     if (effects->ambient && light.ambient_lx) {
       out.ambient_lx = std::max(out.ambient_lx, light.ambient_lx->value);

@@ -97,8 +97,20 @@ EffectRow SourceRow(const MapSettings& settings, const PlacedLamp& lamp,
   return row;
 }
 
-EffectRow BounceRow(const MapSettings& settings, const PlacedLamp& lamp,
-                    const LampAccount& account) {
+const char* WhyNoWalls(std::optional<Surroundings> surroundings) {
+  switch (surroundings.value_or(Surroundings::kIndoors)) {
+    case Surroundings::kDark:
+      return "no walls: [room] says dark";
+    case Surroundings::kOutdoors:
+      return "no walls outdoors: the lamp alone, without the light of the ground";
+    case Surroundings::kIndoors:
+      break;
+  }
+  return "no [room] or --room given: the lamp alone; indoors walls add 25 % in the median";
+}
+
+EffectRow BounceRow(const MapSettings& settings, const PlacedLamp& lamp, const LampAccount& account,
+                    std::optional<Surroundings> surroundings) {
   EffectRow row{lamp.name, "room_bounce", "off", "", "", BounceCost_ns(account),
                 {},        Node::Table(), 0};
   const std::int64_t all = DirectPoints(account);
@@ -108,7 +120,7 @@ EffectRow BounceRow(const MapSettings& settings, const PlacedLamp& lamp,
   if (IsEverywhere(lamp.source)) {
     row.reason = "part of what this kind of light is";
   } else if (!settings.room) {
-    row.reason = "no [room] or --room given: the lamp alone; indoors walls add 25 % in the median";
+    row.reason = WhyNoWalls(surroundings);
   } else if (settings.room_bounce == EffectChoice::kNever) {
     row.reason = "switched off by name";
   } else {
@@ -133,11 +145,12 @@ EffectRow BounceRow(const MapSettings& settings, const PlacedLamp& lamp,
 
 std::vector<EffectRow> EffectRowsOf(const std::vector<PlacedLamp>& lamps,
                                     const std::vector<LampAccount>& accounts,
-                                    const MapSettings& settings) {
+                                    const MapSettings& settings,
+                                    std::optional<Surroundings> surroundings) {
   std::vector<EffectRow> rows;
   for (std::size_t k = 0; k < lamps.size(); ++k) {
     rows.push_back(SourceRow(settings, lamps[k], accounts[k]));
-    rows.push_back(BounceRow(settings, lamps[k], accounts[k]));
+    rows.push_back(BounceRow(settings, lamps[k], accounts[k], surroundings));
   }
   return rows;
 }

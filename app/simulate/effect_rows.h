@@ -9,6 +9,7 @@
 
 #include "lightcal/light/illuminance_map.h"
 #include "lightcal/records/document.h"
+#include "lightcal/records/session.h"
 
 namespace lightcal::app {
 
@@ -26,8 +27,10 @@ struct EffectRow {
 };
 
 // Two rows a lamp, its own size and the walls' light. One account a lamp, in the lamps' order.
+// `surroundings`: a session's own.
 [[nodiscard]] std::vector<EffectRow> EffectRowsOf(const std::vector<PlacedLamp>& lamps,
                                                   const std::vector<LampAccount>& accounts,
-                                                  const MapSettings& settings);
+                                                  const MapSettings& settings,
+                                                  std::optional<Surroundings> surroundings);
 
 }  // namespace lightcal::app

@@ -266,7 +266,7 @@ std::string AnswerText(const Simulated& s) {
   if (s.plane) out += PlaneText(s) + "\n";
   std::vector<std::vector<std::string>> rows;
   double cost = 0.0;
-  for (const EffectRow& row : EffectRowsOf(s.lamps, s.accounts, s.settings)) {
+  for (const EffectRow& row : EffectRowsOf(s.lamps, s.accounts, s.settings, s.surroundings)) {
     rows.push_back({row.light, row.effect, row.state, CostText(row.cost_ns),
                     row.where.empty() ? "-" : row.where, row.reason});
     cost += row.cost_ns;
@@ -285,7 +285,8 @@ Node AnswerNode(const Simulated& s) {
           {"tolerance", s.settings.tolerance},
           {"points", Node::UnlessEmpty(Node::List(s.points, point))},
           {"plane", s.plane ? PlaneNode(s) : Node()},
-          {"effects", Node::List(EffectRowsOf(s.lamps, s.accounts, s.settings), EffectNode)},
+          {"effects",
+           Node::List(EffectRowsOf(s.lamps, s.accounts, s.settings, s.surroundings), EffectNode)},
           {"elapsed_ms", s.elapsed_ms},
           {"files", Node::UnlessEmpty(s.files)}};
 }

@@ -9,6 +9,7 @@
 #include "lightcal/core/uncertain.h"
 #include "lightcal/light/illuminance_map.h"
 #include "lightcal/records/document.h"
+#include "lightcal/records/session.h"
 #include "simulate/grid_target.h"
 #include "simulate/map_plane.h"
 
@@ -34,7 +35,8 @@ struct MapSummary {
 struct Simulated {
   std::vector<PlacedLamp> lamps;
   MapSettings settings;
-  double ambient_lx = 0.0;  // added everywhere; 0 = not asked for
+  std::optional<Surroundings> surroundings;  // of the session its lamps were measured in
+  double ambient_lx = 0.0;                   // added everywhere; 0 = not asked for
   std::vector<PredictedPoint> points;
   std::optional<MapPlane> plane;
   IlluminanceMap map;

@@ -79,6 +79,32 @@ for degrees, found in zip(ANGLES, simulated(stated, [on_floor(a) for a in ANGLES
         truth = floor_lux(1000 * 2 ** -((degrees / half) ** p), degrees)
         check(f"stated, {degrees} of a beam of {2 * half}", found, truth, 0.06 if degrees == 0 else None)
 
+# No walls in the dark: none are asked for. Outdoors none either.
+path = pathlib.Path(FOLDER.name) / "w.toml"
+for room, said in (("dark = true", "says dark"), ("outdoors = true", "outdoors")):
+    path.write_text(path.read_text().replace("dark = true", room))
+    effects = json.loads(run("simulate", path, "--at", "0,0,0", "--json"))["effects"]
+    walls = [one["reason"] for one in effects if one["name"] == "room_bounce"]
+    assert walls and all(said in one and "no [room]" not in one for one in walls), walls
+
+# A reflector read by distances alone may shine to any side: which is asked for, and an aim answers it.
+def aimed(light, *words):
+    done = subprocess.run([LIGHTCAL, "simulate", str(light), "--at", "0,0,0", "--json", *words], check=True,
+                          capture_output=True, text=True)
+    lux = json.loads(done.stdout)["points"][0]["illuminance_lx"]
+    return lux["u95"] / lux["value"], done.stdout + done.stderr
+
+
+for place, given in (("", ("--position", "s=0,0,2")), ("position_m = [0, 0, 2]\n", ())):
+    session('kind = "point"\nfixture = "reflector"\n', AXIS)
+    path.write_text(path.read_text().replace("position_m = [0, 0, 2]\n", place))
+    reflector = pathlib.Path(FOLDER.name) / "reflector.json"
+    run("fit", path, "-o", reflector, "--force")
+    wide, said = aimed(reflector, *given)
+    assert wide > 1 and "no aim is known" in said and "--aim s=" in said, said
+    sure, said = aimed(reflector, *given, "--aim", "s=0,0,-1")
+    assert sure < 0.3 and "no aim" not in said, (sure, said)
+
 # A spot of which nothing is stated: its axis, and anything beside it.
 unknown = simulated(session(SPOT, AXIS), [on_floor(a) for a in (0, 20, 60)])
 check("unknown, 0", unknown[0], 250, 0.06)

@@ -32,6 +32,14 @@ bool NeedsAim(const FittedLight& light) {
          light.kind == LightKind::kDirectional;
 }
 
+// A point in front of which its readings were made, wherever that was, and which may shine to that
+// side alone: as uneven as no bulb is.
+bool ShinesSomewhere(const FittedLight& light) {
+  constexpr double kOfAnyBulb = 0.5;  // their gradient is .25 (UnevenOf), of lamps of one side .8
+  if (light.kind != LightKind::kPoint || !light.uneven) return false;
+  return Length(light.uneven->middle) == 0.0 && Length(light.uneven->gradient_sd) > kOfAnyBulb;
+}
+
 Result<Uncertain> StrengthOf(const FittedLight& light) {
   std::optional<Uncertain> strength =
       HasPlace(light.kind) ? light.intensity_cd : light.illuminance_lx;
@@ -154,7 +162,7 @@ PlaceDoubt PlaceDoubtOf(const FittedLight& light, double variance_ln, bool stand
     doubt.covariance[(1 + k) * kDiagonal] = place * place;
     if (!light.uneven) continue;
     const double sd = light.uneven->gradient_sd[k];
-    const bool by_aim = !light.position_m && aim;
+    const bool by_aim = aim && (!light.position_m || ShinesSomewhere(light));
     doubt.middle[k] = by_aim ? (*aim)[k] / Length(*aim) : light.uneven->middle[k];
     doubt.covariance[(4 + k) * kDiagonal] = sd * sd;
   }
@@ -275,6 +283,12 @@ class Placer {
       warnings.push_back({"aim_unknown", light.name,
                           "no aim is known: it shines straight down; {place.aim} " + light.name +
                               "=x,y,z says otherwise"});
+    }
+    if (!aim && ShinesSomewhere(light)) {
+      warnings.push_back({"aim_unknown", light.name,
+                          "no aim is known: its light may go anywhere, and off its aim it may be "
+                          "dark; {place.aim} " +
+                              light.name + "=x,y,z says to which side it was read"});
     }
     PlacedLamp lamp;
     lamp.name = light.name;
