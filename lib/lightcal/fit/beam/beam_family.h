@@ -62,6 +62,18 @@ template <class T>
   }
 }
 
+// An angle from the axis whose sine and cosine are taken once, for as many beams as see it.
+template <class T>
+struct OffAxis {
+  T gamma, sine, cosine;
+};
+template <class T>
+[[nodiscard]] OffAxis<T> OffAxisBy(const T& gamma) {
+  using std::cos;
+  using std::sin;
+  return {gamma, sin(gamma), cos(gamma)};
+}
+
 // Where the readings are, seen from `start` metres behind the lamp's place: a plane across the
 // axis, or all around at one distance. A point on it under an angle `a` from there is under gamma
 // from where the light starts, `offset` behind the lamp's place.
@@ -78,14 +90,12 @@ struct ReadFrom {
     return relative > T(kMostForward) ? relative : T(kMostForward);
   }
   template <class T>
-  [[nodiscard]] T AngleFromStart(const T& gamma, const T& offset) const {
+  [[nodiscard]] T AngleFromStart(const OffAxis<T>& towards, const T& offset) const {
     using std::asin;
     using std::atan2;
-    using std::cos;
-    using std::sin;
     const T q = Relative(offset);
-    if (plane) return atan2((1.0 + q) * sin(gamma), cos(gamma));
-    return gamma + asin(q * sin(gamma));
+    if (plane) return atan2((1.0 + q) * towards.sine, towards.cosine);
+    return towards.gamma + asin(q * towards.sine);
   }
   // Square of the distance from where the light starts, over that from there.
   template <class T>
@@ -118,9 +128,9 @@ struct BeamShape {
   [[nodiscard]] T Relative(const T& gamma, const T* p) const;
   // I(gamma) of a lamp whose light starts `offset` behind its place, over I(0) as read.
   template <class T>
-  [[nodiscard]] T Intensity(const T& gamma, const T& offset, const T* p) const {
+  [[nodiscard]] T Intensity(const OffAxis<T>& towards, const T& offset, const T* p) const {
     if (family == BeamFamily::kEven) return T(1.0);
-    const T a = read_from.AngleFromStart(gamma, offset);
+    const T a = read_from.AngleFromStart(towards, offset);
     return read_from.SquaresRatio(a, offset) * Relative(a, p);
   }
   // Rows about the smoothness of the curve.

@@ -109,7 +109,7 @@ struct BeamProblem {
     using std::exp;
     const BeamTowards<T> towards = TowardsOf(row, p);
     return exp(p[kBeamLnIntensity]) * towards.per_candela *
-           shape.Intensity(towards.gamma, p[kBeamOffset], p + kBeamCommon);
+           shape.Intensity(OffAxisBy(towards.gamma), p[kBeamOffset], p + kBeamCommon);
   }
   template <class T>
   [[nodiscard]] static T Walls(const BeamRow& row, const T* p) {
@@ -134,7 +134,7 @@ struct BeamProblem {
     }
     i -= rows.size();
     if (i < sheet.size()) {
-      const T a = shape.read_from.AngleFromStart(T(sheet[i].gamma), p[kBeamOffset]);
+      const T a = shape.read_from.AngleFromStart(OffAxisBy(T(sheet[i].gamma)), p[kBeamOffset]);
       *residual = (shape.Relative(a, p + kBeamCommon) - sheet[i].level) / sheet[i].sd;
       return true;
     }

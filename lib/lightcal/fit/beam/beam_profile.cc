@@ -98,14 +98,13 @@ bool FallsOnly(const std::vector<double>& candela) {
 }
 
 std::vector<double> CurveOf(const SolvedBeam& beam, const Eigen::VectorXd& p,
-                            const std::vector<double>& gamma_deg) {
-  std::vector<double> candela(gamma_deg.size());
+                            const std::vector<OffAxis<double>>& angles) {
+  std::vector<double> candela(angles.size());
   const double axial = std::exp(p[kBeamLnIntensity]);
   for (std::size_t i = 0; i < candela.size(); ++i) {
-    const double gamma = gamma_deg[i] * kPi / 180.0;
-    candela[i] = axial * beam.shape.Intensity(gamma, p[kBeamOffset], p.data() + kBeamCommon);
+    candela[i] = axial * beam.shape.Intensity(angles[i], p[kBeamOffset], p.data() + kBeamCommon);
     // Beyond the last reading that saw light none comes up again.
-    if (beam.smooth && i > 0 && gamma > beam.outermost)
+    if (beam.smooth && i > 0 && angles[i].gamma > beam.outermost)
       candela[i] = std::min(candela[i], candela[i - 1]);
   }
   return candela;
@@ -142,12 +141,14 @@ Drawn DrawFrom(const SolvedBeam& beam, const std::vector<double>& gamma_deg, int
   Drawn out;
   const Eigen::Index n = beam.theta.size();
   const FluxThrough flux(gamma_deg);
+  std::vector<OffAxis<double>> angles;
+  for (const double degrees : gamma_deg) angles.push_back(OffAxisBy(degrees * kPi / 180.0));
   Eigen::VectorXd z(n);
   for (int i = 0; i < count; ++i) {
     for (Eigen::Index k = 0; k < n; ++k) z[k] = normal(random);
     const Eigen::VectorXd p = beam.theta + beam.root * z;
     BeamDraw draw;
-    draw.candela = CurveOf(beam, p, gamma_deg);
+    draw.candela = CurveOf(beam, p, angles);
     draw.axial_cd = draw.candela.front();
     if (!std::isfinite(draw.axial_cd)) continue;
     draw.flux_lm = flux.Of(draw.candela);

@@ -160,9 +160,6 @@ std::optional<SolvedBeam> SolveFamilyOf(const BeamReadings& readings, const Offs
   out.theta = OverAll<P>(*best);
   out.covariance = Eigen::MatrixXd::Zero(kBeamParameters, kBeamParameters);
   out.covariance.topLeftCorner<P::kCount, P::kCount>() = *covariance;
-  // Free parameters only: the others' rows are zero.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(out.covariance);
-  out.root = axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   out.ln_probability = std::log(weight * (offset != nullptr ? offset->weight : 1.0)) -
                        MinusLnPosterior(problem, *best) - shape.LnPriorScale();
   const auto triangle = FreeTriangle(problem, at);
@@ -237,6 +234,12 @@ void ShareOut(std::vector<SolvedBeam>& beams) {
   for (const SolvedBeam& one : beams) whole += one.share;
   for (SolvedBeam& one : beams) one.share /= whole;
   std::ranges::stable_sort(beams, std::ranges::greater(), &SolvedBeam::share);
+}
+
+// Of free parameters only: the others' rows are zero.
+Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes(covariance);
+  return axes.eigenvectors() * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 double OutermostOf(const std::vector<SheetRow>& sheet) {
@@ -354,6 +357,7 @@ std::vector<SolvedBeam> SolveBeams(const BeamReadings& stated) {
     beam.shape.read_from.start = start;
   }
   if (!out.empty()) ShareOut(out);
+  for (SolvedBeam& beam : out) beam.root = RootOf(beam.covariance);
   return out;
 }
 
