@@ -165,6 +165,25 @@ TEST(PlanReadings, OneReadingAsksForAnotherDistance) {
   }
 }
 
+// Each is a fit: of a hundred readings a plan took a quarter of a minute.
+TEST(PlanReadings, OfManyPlacesACardIsTriedAtNineFromTheNearestToTheFarthest) {
+  TwinSession twin(LampTruth{}, 0.01, 5);
+  for (int i = 0; i < 40; ++i) twin.On(0.5 + 0.1 * i);
+  Session session = twin.session();
+  session.surroundings = Surroundings::kIndoors;
+  const auto plan = PlanReadings(session, "lamp", {}, 1);
+  ASSERT_TRUE(plan.has_value()) << plan.error().message;
+  std::vector<double> carded;
+  for (const PlannedReading& step : plan->candidates) {
+    if (step.action == PlannedAction::kShadowCard) carded.push_back(step.distance->value());
+  }
+  std::ranges::sort(carded);
+  ASSERT_EQ(carded.size(), 9U);
+  EXPECT_DOUBLE_EQ(carded.front(), 0.5);
+  EXPECT_DOUBLE_EQ(carded.back(), 0.5 + 0.1 * 39);
+  for (std::size_t i = 1; i < carded.size(); ++i) EXPECT_LT(carded[i] - carded[i - 1], 0.75);
+}
+
 TEST(PlanReadings, AnUnknownLightIsRefused) {
   EXPECT_EQ(PlanReadings(TwinSession(LampTruth{}, 0.02, 3).session(), "kye", {}, 1).error().code,
             "unknown_light");

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -21,6 +23,7 @@ constexpr double kStep = 2.8284271247461903;  // sqrt(8): three of them span 8 :
 constexpr int kPlaneSteps = 2;                // to each side
 constexpr double kPlaceSpread = 1.25;
 constexpr double kPlaceRounding_m = 0.01;
+constexpr std::size_t kMostCards = 9;  // places that a shadow card is tried at
 
 // Length of what a meter must stay clear of.
 double SizeOf(const LightDescription& light) {
@@ -123,20 +126,34 @@ class Candidates {
     lit_.push_back(reading);
   }
 
+  // At each place that was read; of many, evenly from the brightest to the dimmest, both with them:
+  // what a card tells changes with the walls' share of the light, and that steadily with distance.
   void AddShadowCards(std::vector<PlannedReading>& out) const {
+    std::vector<const Reading*> open;
     for (const Reading& lit : lit_) {
-      const bool known = std::any_of(carded_.begin(), carded_.end(), [&](const Reading& card) {
-        return card.distance == lit.distance && card.position_m == lit.position_m &&
-               card.off_axis == lit.off_axis;
-      });
-      const bool listed = std::any_of(out.begin(), out.end(), [&](const PlannedReading& card) {
-        return card.distance == lit.distance && card.position_m == lit.position_m &&
-               card.off_axis.value_or(Radians(0.0)) == lit.off_axis;
-      });
-      if (known || listed || lit.meter == kDataSheetMeter) continue;
-      out.push_back({PlannedAction::kShadowCard, lit.distance, lit.position_m, lit.normal});
-      if (lit.off_axis.value() != 0.0) out.back().off_axis = lit.off_axis;
+      const auto here = [&](const Reading& other) {
+        return other.distance == lit.distance && other.position_m == lit.position_m &&
+               other.off_axis == lit.off_axis;
+      };
+      const bool listed = std::ranges::any_of(open, [&](const Reading* one) { return here(*one); });
+      if (listed || std::ranges::any_of(carded_, here) || lit.meter == kDataSheetMeter) continue;
+      open.push_back(&lit);
     }
+    if (open.size() > kMostCards) open = Spread(std::move(open));
+    for (const Reading* lit : open) {
+      out.push_back({PlannedAction::kShadowCard, lit->distance, lit->position_m, lit->normal});
+      if (lit->off_axis.value() != 0.0) out.back().off_axis = lit->off_axis;
+    }
+  }
+
+  [[nodiscard]] static std::vector<const Reading*> Spread(std::vector<const Reading*> readings) {
+    std::ranges::stable_sort(readings, std::ranges::greater(),
+                             [](const Reading* reading) { return reading->illuminance->value(); });
+    std::vector<const Reading*> out;
+    for (std::size_t i = 0; i < kMostCards; ++i) {
+      out.push_back(readings[i * (readings.size() - 1) / (kMostCards - 1)]);
+    }
+    return out;
   }
 
   void AddDistances(std::vector<PlannedReading>& out) const {
