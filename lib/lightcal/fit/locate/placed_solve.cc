@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/fit/locate/placed_solve.h"
 
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -28,21 +27,13 @@ void CutAmbient(const At& at, double estimate, const PlacedMatrix& covariance,
   total += regression * regression.transpose() * (truncated.variance - variance + shift * shift);
 }
 
-// The optimum by TinySolver, which knows no bounds. Where it has less ambient light than none: that
-// with none, if more would be no better.
+// The optimum by TinySolver, which knows no bounds, with no less ambient light than none.
 std::optional<PlacedTheta> SolveSmall(const PlacedEstimation& estimation,
                                       const PlacedTheta& start) {
-  auto theta = SolveTiny(estimation, start);
-  if (!theta) return std::nullopt;
-  const bool bounded = estimation.rules[kPlacedAmbient].free;
-  if (!bounded || (*theta)[kPlacedAmbient] > 0.0) return Polish(estimation, *theta);
-  std::array<bool, kPlacedParameters> held{};
-  held[kPlacedAmbient] = true;
-  (*theta)[kPlacedAmbient] = 0.0;
-  theta = SolveTiny(estimation, *theta, held);
-  if (!theta) return std::nullopt;
-  theta = Polish(estimation, *theta);
-  return GradientAt(estimation, *theta)[kPlacedAmbient] >= 0.0 ? theta : std::nullopt;
+  const auto theta = SolveNotBelowZero(
+      estimation, kPlacedAmbient, start,
+      [&](const PlacedTheta& from, const auto& held) { return SolveTiny(estimation, from, held); });
+  return theta ? std::optional(Polish(estimation, *theta)) : std::nullopt;
 }
 
 // 1 sigma of what the influence does to ln E of a row.

@@ -184,6 +184,21 @@ template <TellsBend P>
   return theta ? std::optional(Polish(problem, *theta)) : std::nullopt;
 }
 
+// The optimum where parameter k cannot fall below 0, by solve(start, held), which knows no bounds:
+// where it falls below, that with k held at 0, if more of it would be no better. Absent otherwise.
+template <class P, class Solver>
+[[nodiscard]] std::optional<ValuesOf<P>> SolveNotBelowZero(const P& problem, int k,
+                                                           const ValuesOf<P>& start,
+                                                           const Solver& solve) {
+  std::array<bool, P::kCount> held{};
+  std::optional<ValuesOf<P>> theta = solve(start, held);
+  if (!theta || !problem.rules[k].free || (*theta)[k] >= 0.0) return theta;
+  held[k] = true;
+  (*theta)[k] = 0.0;
+  theta = solve(*theta, held);
+  return theta && GradientAt(problem, *theta)[k] >= 0.0 ? theta : std::nullopt;
+}
+
 // What the full solver sees of any problem.
 struct ErasedProblem {
   std::span<const ParameterRule> rules;

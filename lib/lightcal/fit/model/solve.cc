@@ -83,18 +83,16 @@ AxialFalloff DirectAt(const ReadingRow& row, double offset) {
   return {at.a, at.v[0], (beyond.v[0] - at.v[0]) / (more - offset)};
 }
 
-// E0 at its bound is held there.
+// With E0 at its bound where it would be below; no offset at one.
 template <class P>
 std::optional<ValuesOf<P>> SolveWithin(const P& problem, const ValuesOf<P>& start,
                                        double last_step) {
-  std::optional<ValuesOf<P>> theta = SolveNear(problem, start, {}, last_step);
-  if (!theta || AtBound(problem, *theta, kDistanceOffset)) return std::nullopt;
-  if (!problem.rules[kAmbient].free || (*theta)[kAmbient] >= 0.0) return theta;
-  (*theta)[kAmbient] = 0.0;
-  theta = SolveNear(problem, *theta, {false, false, true}, last_step);
-  if (!theta || AtBound(problem, *theta, kDistanceOffset)) return std::nullopt;
-  if (NormalEquationsAt(problem, *theta).gradient[kAmbient] < 0.0) return std::nullopt;
-  return theta;
+  return SolveNotBelowZero(problem, kAmbient, start,
+                           [&](const ValuesOf<P>& from, const std::array<bool, P::kCount>& held) {
+                             auto theta = SolveNear(problem, from, held, last_step);
+                             if (theta && AtBound(problem, *theta, kDistanceOffset)) theta.reset();
+                             return theta;
+                           });
 }
 
 }  // namespace
