@@ -46,6 +46,12 @@ std::array<ParameterRule, BeamShape::kNodes> BeamShape::Rules() const {
   return rules;
 }
 
+std::size_t BeamShape::FirstNode(double gamma) const {
+  constexpr double kMost = kNodes - kNodesOfAngle;
+  const double before = std::floor(NodesAlong(gamma)) - 1.0;
+  return static_cast<std::size_t>(before < kMost ? std::max(0.0, before) : kMost);
+}
+
 double BeamShape::LnPriorScale() const {
   if (family != BeamFamily::kSmooth) return 0.0;
   return (kNodes - 1) * std::log(bend) - std::numbers::ln2 + std::log(kAxialPrior.prior_sd) +

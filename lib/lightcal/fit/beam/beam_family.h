@@ -110,8 +110,9 @@ struct ReadFrom {
 };
 
 struct BeamShape {
-  static constexpr int kNodes = 20;  // of the smooth curve
-  static constexpr int kFew = 3;     // of them are used by all other families
+  static constexpr int kNodes = 20;        // of the smooth curve
+  static constexpr int kFew = 3;           // of them are used by all other families
+  static constexpr int kNodesOfAngle = 4;  // side by side, that tell the curve at one angle
   static constexpr double kSoft = 0.08;
   // Of f on the axis: most lamps are brightest there, some have a hole.
   static constexpr ParameterRule kAxialPrior = {true, 0.8, 0.6};
@@ -133,6 +134,8 @@ struct BeamShape {
     const T a = read_from.AngleFromStart(towards, offset);
     return read_from.SquaresRatio(a, offset) * Relative(a, p);
   }
+  // The first of the nodes that tell the smooth curve at an angle, radians.
+  [[nodiscard]] std::size_t FirstNode(double gamma) const;
   // Rows about the smoothness of the curve.
   [[nodiscard]] std::size_t PriorRows() const { return family == BeamFamily::kSmooth ? kNodes : 0; }
   template <class T>
@@ -144,6 +147,14 @@ struct BeamShape {
  private:
   template <class T>
   [[nodiscard]] T Latent(const T& gamma, const T* p) const;
+  // Where an angle lies among the nodes.
+  template <class T>
+  [[nodiscard]] T NodesAlong(const T& gamma) const {
+    using std::log;
+    using std::sqrt;
+    const T u = gamma / scale;
+    return log(u + sqrt(1.0 + u * u)) / step;
+  }
 };
 
 template <class T>
@@ -157,12 +168,9 @@ T BeamShape::PriorRow(std::size_t i, const T* p) const {
 
 template <class T>
 T BeamShape::Latent(const T& gamma, const T* p) const {
-  using std::log;
-  using std::sqrt;
   constexpr int kLast = kNodes - 1;
   const auto node = [p](int k) -> const T& { return p[std::abs(k)]; };
-  const T u = gamma / scale;
-  const T x = log(u + sqrt(1.0 + u * u)) / step;
+  const T x = NodesAlong(gamma);
   const double whole = std::floor(ScalarOf(x));
   if (!(whole < kLast)) {
     return node(kLast) + (node(kLast) - node(kLast - 1)) * (x - double{kLast});

@@ -141,28 +141,53 @@ struct BeamProblem {
     *residual = shape.PriorRow(i - sheet.size(), p + kBeamCommon);
     return true;
   }
-  // The same and its derivatives. A row of the curve's smoothness knows three nodes, and there are
-  // more such rows than readings.
+  // The same and its derivatives. Of a curve's nodes a reading knows four, a row of its smoothness
+  // three.
   bool Differentiate(std::size_t i, const double* p, double* residual, double* gradient) const {
     const std::size_t measured = rows.size() + sheet.size();
-    if (i < measured) {
-      return DifferentiateByJets<BeamProblem>(
-          [&](const auto* at, auto* out) { return Residual(i, at, out); }, p, residual, gradient);
-    }
-    using Jet = ceres::Jet<double, 3>;
-    const std::size_t last = i - measured;
-    const std::size_t first = last < 2 ? 0 : last - 2;
-    std::array<Jet, BeamShape::kNodes> nodes;
-    for (std::size_t k = first; k <= last; ++k) {
-      nodes[k] = Jet(p[kBeamCommon + k], static_cast<int>(last - k));
-    }
-    const Jet out = shape.PriorRow(last, nodes.data());
-    *residual = out.a;
     std::fill_n(gradient, kCount, 0.0);
-    for (std::size_t k = first; k <= last; ++k) {
-      gradient[kBeamCommon + k] = out.v[static_cast<Eigen::Index>(last - k)];
+    if (i >= measured) {
+      const std::size_t last = i - measured;
+      const std::size_t first = last < 2 ? 0 : last - 2;
+      const auto nodes = [&](const auto* at, auto* out) {
+        *out = shape.PriorRow(last, at + kBeamCommon);
+        return true;
+      };
+      return DifferentiateBy<3>(nodes, p, 0, first, residual, gradient);
     }
-    return true;
+    const auto row = [&](const auto* at, auto* out) { return Residual(i, at, out); };
+    if constexpr (kOfShape <= BeamShape::kFew) {
+      return DifferentiateBy<kCount>(row, p, kBeamCommon, 0, residual, gradient);
+    } else {
+      return DifferentiateBy<kBeamCommon + BeamShape::kNodesOfAngle>(
+          row, p, kBeamCommon, FirstNodeOf(i, p), residual, gradient);
+    }
+  }
+
+ private:
+  // By the first `common` parameters and as many nodes from `first` on as kSome leaves.
+  template <int kSome, class Row>
+  static bool DifferentiateBy(const Row& row, const double* p, int common, std::size_t first,
+                              double* residual, double* gradient) {
+    using Jet = ceres::Jet<double, kSome>;
+    std::array<int, kSome> known{};
+    for (int k = 0; k < kSome; ++k) {
+      known[k] = k < common ? k : kBeamCommon + static_cast<int>(first) + k - common;
+    }
+    std::array<Jet, kCount> at;
+    for (int k = 0; k < kCount; ++k) at[k].a = p[k];
+    for (int k = 0; k < kSome; ++k) at[known[k]].v[k] = 1.0;
+    Jet out(0.0);
+    const bool has_value = row(at.data(), &out);
+    *residual = out.a;
+    for (int k = 0; k < kSome; ++k) gradient[known[k]] = out.v[k];
+    return has_value;
+  }
+  // Of a reading, or of a data sheet's row.
+  [[nodiscard]] std::size_t FirstNodeOf(std::size_t i, const double* p) const {
+    const double gamma =
+        i < rows.size() ? TowardsOf(rows[i], p).gamma : sheet[i - rows.size()].gamma;
+    return shape.FirstNode(shape.read_from.AngleFromStart(OffAxisBy(gamma), p[kBeamOffset]));
   }
 };
 

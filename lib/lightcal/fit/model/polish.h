@@ -37,7 +37,9 @@ template <class P>
   VectorOf<P> j;
   for (std::size_t i = 0; i < problem.RowCount(); ++i) {
     const double residual = DifferentiateAt(problem, i, theta.data(), j.data());
-    if (normal != nullptr) *normal += j * j.transpose();
+    for (int k = 0; normal != nullptr && k < P::kCount; ++k) {
+      if (j[k] != 0.0) normal->col(k) += j * j[k];  // of many parameters a row knows few
+    }
     gradient += j * residual;
   }
   AddPriors(problem, theta, gradient, normal);

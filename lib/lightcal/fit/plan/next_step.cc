@@ -114,17 +114,15 @@ struct AngleAdvice {
   NextStepAdvice advice;
   double gain = 0.0;  // of ln of the beam angle's interval
 };
-std::optional<AngleAdvice> AboutBeam(const Session& session, const FittedLight& light) {
-  if (!light.beam || !light.beam->beam_deg) return std::nullopt;
-  auto plan = PlanAngle(session, light.name, {});
-  if (!plan || plan->steps.empty() || !plan->beam_u95_deg) return std::nullopt;
-  PlannedReading& step = plan->steps.front();
+std::optional<AngleAdvice> AboutAngle(ReadingPlan&& plan) {
+  if (plan.steps.empty() || !plan.beam_u95_deg) return std::nullopt;
+  PlannedReading& step = plan.steps.front();
   if (!step.beam_u95_deg) return std::nullopt;
   const auto degrees = [](double u95) { return "± " + RoundedText(u95, 2) + "°"; };
-  const std::string beam = ": beam angle " + degrees(*plan->beam_u95_deg) + " → " +
-                           degrees(*step.beam_u95_deg) + ", intensity " + Now(*plan) + " → " +
+  const std::string beam = ": beam angle " + degrees(*plan.beam_u95_deg) + " → " +
+                           degrees(*step.beam_u95_deg) + ", intensity " + Now(plan) + " → " +
                            LeftAfter(step);
-  const double gain = std::log(*plan->beam_u95_deg / *step.beam_u95_deg);
+  const double gain = std::log(*plan.beam_u95_deg / *step.beam_u95_deg);
   const MeasuringMinutes minutes;
   NextStepAdvice advice = Take(std::move(step), minutes.move + minutes.reading, "");
   advice.say = SayPlannedReading(*advice.reading) + beam;
@@ -138,14 +136,17 @@ double GainOf(const NextStepAdvice& advice, const FittedLight& light) {
   return std::log(*now / advice.reading->u95_relative);
 }
 
-NextStepAdvice WhatMinutesBuy(const Session& session, const FittedLight& light,
-                              const std::vector<PlannedReading>& skip, const Progress& progress) {
+LadderWishes OneStep(const Session& session, const std::vector<PlannedReading>& skip,
+                     const Progress& progress) {
   LadderWishes wishes;
   wishes.skip = skip;
   wishes.progress = progress;
   wishes.reach_m = ReachIn(session);
   wishes.steps = 1;
-  auto ladder = PlanMinutes(session, light.name, {}, wishes);
+  return wishes;
+}
+
+NextStepAdvice WhatMinutesBuy(Result<MinutesLadder> ladder) {
   NextStepAdvice nothing;
   nothing.kind = NextStepAdvice::Kind::kNothing;
   nothing.say = "no reading within reach would take 2 % off what is left";
@@ -190,9 +191,17 @@ NextStepAdvice AdviseNext(const Session& session, const FittedLight& light,
              return SameStep(one, *advice->reading);
            });
   };
-  if (auto angle = AboutBeam(session, light); angle && wanted(angle->advice)) {
-    NextStepAdvice bought = WhatMinutesBuy(session, light, skip, progress);
-    return GainOf(bought, light) > angle->gain ? bought : std::move(angle->advice);
+  const LadderWishes wishes = OneStep(session, skip, progress);
+  std::optional<MinutesLadder> of_beam;
+  if (light.beam && light.beam->beam_deg) {
+    if (auto plan = PlanBeam(session, light.name, {}, wishes)) {
+      auto angle = AboutAngle(std::move(plan->angle));
+      of_beam = std::move(plan->ladder);
+      if (angle && wanted(angle->advice)) {
+        NextStepAdvice bought = WhatMinutesBuy(*std::move(of_beam));
+        return GainOf(bought, light) > angle->gain ? bought : std::move(angle->advice);
+      }
+    }
   }
   if (auto place = AboutPlace(session, light); wanted(place)) return *std::move(place);
   const Taken taken = TakenOf(session, light);
@@ -219,7 +228,8 @@ NextStepAdvice AdviseNext(const Session& session, const FittedLight& light,
     return Say("measure your own lamp once at " + RoundedText(nearest, 2) +
                " m: so far only the manufacturer's figures speak");
   }
-  NextStepAdvice bought = WhatMinutesBuy(session, light, skip, progress);
+  NextStepAdvice bought =
+      WhatMinutesBuy(of_beam ? *std::move(of_beam) : PlanMinutes(session, light.name, {}, wishes));
   // A step that leaves the lamp unknown to a factor of two either way tells as little as none.
   if (bought.reading && bought.reading->u95_stops >= 1.0) {
     return SayReadNearer(nearest);

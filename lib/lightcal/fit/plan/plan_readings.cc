@@ -11,6 +11,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/stops.h"
 #include "lightcal/fit/plan/instrument_limit.h"
+#include "lightcal/fit/plan/one_light.h"
 #include "lightcal/fit/plan/reading_candidates.h"
 #include "lightcal/fit/plan/reading_trial.h"
 #include "lightcal/records/display_step.h"
@@ -22,36 +23,6 @@ namespace {
 constexpr double kAsGood = 0.01;
 // A step of a ladder shortens the interval at least so much.
 constexpr double kLeastGain = 0.02;
-
-Reading LikeTheLast(const Session& session) {
-  Reading like;
-  like.light = session.lights.front().name;
-  if (!session.meters.empty()) like.meter = session.meters.front().name;
-  for (const SessionReading& row : session.readings) {
-    const Reading& reading = row.reading;
-    const bool by_meter =
-        reading.meter != kDataSheetMeter && reading.quality != MeterQuality::kDerived;
-    if (!reading.illuminance || !by_meter) continue;
-    like.meter = reading.meter;
-    like.device = reading.device;
-    like.sigma_relative = reading.sigma_relative;
-  }
-  return like;
-}
-
-// Of the meter: a tenth of a lux, as of most that people own, or less where its readings show it.
-double LastDigit(double display_step_lx) {
-  constexpr double kOfMost_lx = 0.1;
-  return display_step_lx > 0.0 ? std::min(display_step_lx, kOfMost_lx) : kOfMost_lx;
-}
-
-// The display's step where it counts in a reading, so that planned ones keep it; else 0.
-double CoarseStep(const Session& session, double step) {
-  const bool counts = std::ranges::any_of(session.readings, [&](const SessionReading& row) {
-    return IsLit(row.reading) && row.reading.illuminance->value() < kStepsEnough * step;
-  });
-  return counts ? step : 0.0;
-}
 
 // What is to be small: the interval of the intensity and, of a beam, that of its angle.
 double OpenAfter(const PlannedReading& planned) {
@@ -77,22 +48,30 @@ double GainOf(const Left& before, const PlannedReading& after) {
 
 class Planner {
  public:
-  Planner(Session session, const FitSettings& settings, double reach_m, bool only_angles = false)
+  Planner(Session session, const FitSettings& settings, double reach_m)
       : session_(std::move(session)),
         settings_(settings),
         reach_m_(reach_m),
-        only_angles_(only_angles),
-        like_(LikeTheLast(session_)),
+        like_(fit::LikeTheLast(session_)),
         display_step_lx_(DisplayStepOf(session_, like_)),
-        last_digit_lx_(LastDigit(display_step_lx_)),
-        coarse_step_lx_(CoarseStep(session_, display_step_lx_)) {}
+        last_digit_lx_(fit::LastDigit(display_step_lx_)),
+        coarse_step_lx_(fit::CoarseStep(session_, display_step_lx_)) {}
 
   void Skip(std::vector<PlannedReading> steps) { skip_ = std::move(steps); }
   void Tell(Progress progress) { progress_ = std::move(progress); }
 
+  // One step of angles off the axis alone.
+  Result<ReadingPlan> Angle() {
+    only_angles_ = true;
+    auto plan = Plan(1);
+    only_angles_ = false;
+    return plan;
+  }
+
   Result<ReadingPlan> Plan(int steps) {
     ReadingPlan plan;
-    if (auto begun = Begin(plan.u95_relative); !begun) return Propagate(std::move(begun));
+    if (auto begun = Begin(); !begun) return Propagate(std::move(begun));
+    plan.u95_relative = begun_u95_relative_;
     if (now_ && plan.u95_relative) {
       plan.u95_stops = fit::StopsLeft(*now_);
       plan.beam_u95_deg = fit::BeamLeft(*now_);
@@ -112,7 +91,8 @@ class Planner {
   Result<MinutesLadder> Ladder(const LadderWishes& wishes) {
     MinutesLadder ladder;
     ladder.light = Light().name;
-    if (auto begun = Begin(ladder.u95_relative); !begun) return Propagate(std::move(begun));
+    if (auto begun = Begin(); !begun) return Propagate(std::move(begun));
+    ladder.u95_relative = begun_u95_relative_;
     ladder.meter_u95_relative = LeftBy(fit::SharedCalibrationOf(session_, like_)).relative;
     std::optional<Left> left;
     if (ladder.u95_relative) {
@@ -140,20 +120,21 @@ class Planner {
   void BeginStep(int step, int steps) {
     of_step_ = PartOf(progress_, static_cast<double>(step) / steps, (step + 1.0) / steps);
   }
-  void Tried(std::size_t tried, std::size_t of) const {
+  void TellTried(std::size_t tried, std::size_t of) const {
     if (of_step_) of_step_(static_cast<double>(tried) / static_cast<double>(of));
   }
 
   [[nodiscard]] const LightDescription& Light() const { return session_.lights.front(); }
 
   // What is known before any step.
-  Result<void> Begin(std::optional<double>& u95_relative) {
+  Result<void> Begin() {
+    if (now_) return {};
     const bool read = std::any_of(session_.readings.begin(), session_.readings.end(),
                                   [](const SessionReading& row) { return IsLit(row.reading); });
     auto fitted = FitSession(session_, settings_);
     if (fitted && !fitted->lights.lights.empty()) {
       now_ = std::move(fitted->lights.lights.front());
-      if (read) u95_relative = RelativeUncertainty(*now_);
+      if (read) begun_u95_relative_ = RelativeUncertainty(*now_);
       for (const SessionReading& row : session_.readings) StandAt(row.reading);
     } else if (read) {
       return Propagate(std::move(fitted));
@@ -189,14 +170,14 @@ class Planner {
   }
 
   // Those that would give an answer, in the order they are listed.
-  [[nodiscard]] std::vector<PlannedReading> Judged() const {
+  [[nodiscard]] std::vector<PlannedReading> Judged() {
     std::vector<PlannedReading> out;
     const std::vector<PlannedReading> candidates = Candidates();
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      auto trial = fit::TryExpected(Known(), candidates[i]);
+      auto trial = Tried(candidates[i]);
       if (trial) trial = Settled(*trial);
       if (trial) out.push_back(std::move(trial->planned));
-      Tried(i + 1, candidates.size());
+      TellTried(i + 1, candidates.size());
     }
     return out;
   }
@@ -205,10 +186,31 @@ class Planner {
     return {session_, settings_, like_, now_ ? &*now_ : nullptr, coarse_step_lx_};
   }
 
+  // What a step's readings came to, each tried once.
+  struct Outcome {
+    PlannedReading asked;
+    std::optional<fit::ReadingTrial> trial;
+  };
+  using Outcomes = std::vector<Outcome>;
+  [[nodiscard]] static const Outcome* Find(const Outcomes& of, const PlannedReading& asked) {
+    const auto found = std::ranges::find_if(of, [&](const Outcome& one) {
+      return SameStep(one.asked, asked) && one.asked.normal == asked.normal;
+    });
+    return found == of.end() ? nullptr : &*found;
+  }
+
+  [[nodiscard]] std::optional<fit::ReadingTrial> Tried(const PlannedReading& candidate) {
+    if (const Outcome* known = Find(tried_, candidate)) return known->trial;
+    tried_.push_back({candidate, fit::TryExpected(Known(), candidate)});
+    return tried_.back().trial;
+  }
+
   // None where that gives no interval, or no meter could read it.
   [[nodiscard]] std::optional<fit::ReadingTrial> Settled(const fit::ReadingTrial& guessed,
-                                                         const fit::WorthAFit& worth = {}) const {
-    auto trial = fit::Settle(Known(), guessed, worth);
+                                                         const fit::WorthAFit& worth = {}) {
+    const Outcome* known = Find(settled_, guessed.planned);
+    auto trial = known != nullptr ? known->trial : fit::Settle(Known(), guessed, worth);
+    if (known == nullptr && !worth) settled_.push_back({guessed.planned, trial});
     const bool answers =
         trial && std::isfinite(trial->planned.u95_relative) && IsReadable(trial->planned);
     return answers ? trial : std::nullopt;
@@ -238,7 +240,7 @@ class Planner {
   // What takes most off ln of the stops left a minute; before any reading what leaves least. None:
   // nothing is worth taking.
   [[nodiscard]] std::optional<LadderStep> BestStep(const std::optional<Left>& left,
-                                                   const MeasuringMinutes& minutes) const {
+                                                   const MeasuringMinutes& minutes) {
     if (!left) {
       std::vector<PlannedReading> ranked = Rank();
       if (ranked.empty()) return std::nullopt;
@@ -255,7 +257,7 @@ class Planner {
     const double most_gain = MostGain(*left);
     std::optional<LadderStep> best;
     for (const auto& [took, candidates] : by_minutes) {
-      Tried(tried, count);
+      TellTried(tried, count);
       tried += candidates.size();
       if (most_gain / took <= RateOf(*left, best)) continue;
       best = BestOf(*left, candidates, took, std::move(best));
@@ -271,15 +273,14 @@ class Planner {
   // Of those that take so many minutes, and what was found before.
   [[nodiscard]] std::optional<LadderStep> BestOf(const Left& left,
                                                  const std::vector<PlannedReading>& candidates,
-                                                 double minutes,
-                                                 std::optional<LadderStep> best) const {
+                                                 double minutes, std::optional<LadderStep> best) {
     const auto rate = [&](const fit::ReadingTrial& trial, double more = 0.0) {
       const double a_minute = (GainOf(left, trial.planned) + more) / minutes;
       return std::isnan(a_minute) ? -std::numeric_limits<double>::infinity() : a_minute;
     };
     std::vector<fit::ReadingTrial> trials;
     for (const PlannedReading& candidate : candidates) {
-      if (auto trial = fit::TryExpected(Known(), candidate)) trials.push_back(*std::move(trial));
+      if (auto trial = Tried(candidate)) trials.push_back(*std::move(trial));
     }
     std::ranges::stable_sort(trials,
                              [&](const auto& a, const auto& b) { return rate(a) > rate(b); });
@@ -299,7 +300,7 @@ class Planner {
   }
 
   // Best first; those as good as the best keep their order.
-  [[nodiscard]] std::vector<PlannedReading> Rank() const {
+  [[nodiscard]] std::vector<PlannedReading> Rank() {
     std::vector<PlannedReading> out = Judged();
     if (out.empty()) return out;
     const double least = OpenAfter(*std::ranges::min_element(out, {}, OpenAfter));
@@ -313,6 +314,8 @@ class Planner {
   }
 
   void Take(const PlannedReading& planned) {
+    tried_.clear();
+    settled_.clear();
     session_.readings.push_back(fit::PlannedRow(planned, like_));
     if (auto light = fit::FitAlone(session_, settings_)) now_ = std::move(light);
   }
@@ -320,7 +323,7 @@ class Planner {
   Session session_;
   const FitSettings& settings_;
   double reach_m_;
-  bool only_angles_;
+  bool only_angles_ = false;
   Reading like_;
   double display_step_lx_;
   double last_digit_lx_;
@@ -328,33 +331,10 @@ class Planner {
   std::vector<PlannedReading> skip_;
   Progress progress_, of_step_;
   std::optional<FittedLight> now_;
-  std::optional<PlannedReading> stands_;  // where the meter does
+  std::optional<double> begun_u95_relative_;  // before any step
+  Outcomes tried_, settled_;                  // of this step
+  std::optional<PlannedReading> stands_;      // where the meter does
 };
-
-// Of illuminance alone: what is planned is no colour.
-SessionReading Colorless(SessionReading row) {
-  row.reading.cct.reset();
-  row.reading.duv.reset();
-  row.reading.xy.reset();
-  row.reading.spectrum_file.clear();
-  return row;
-}
-
-// The session as if it had that light alone, and no colour.
-Result<Session> AloneIn(const Session& session, const std::string& light) {
-  const LightDescription* const found = FindLight(session, light);
-  if (found == nullptr) return Refused("unknown_light", light, "the session has no such light");
-  Session alone;
-  alone.room = session.room;
-  alone.surroundings = session.surroundings;
-  alone.haze_per_metre = session.haze_per_metre;
-  alone.meters = session.meters;
-  alone.lights = {*found};
-  for (const SessionReading& row : session.readings) {
-    if (row.reading.light == light) alone.readings.push_back(Colorless(row));
-  }
-  return alone;
-}
 
 }  // namespace
 
@@ -372,23 +352,30 @@ bool SameStep(const PlannedReading& a, const PlannedReading& b) {
 Result<ReadingPlan> PlanReadings(const Session& session, const std::string& light,
                                  const FitSettings& settings, int steps,
                                  std::optional<double> reach_m, const Progress& progress) {
-  auto alone = AloneIn(session, light);
+  auto alone = fit::AloneIn(session, light);
   if (!alone) return Propagate(std::move(alone));
   Planner planner(*std::move(alone), settings, reach_m.value_or(LadderWishes{}.reach_m));
   planner.Tell(progress);
   return planner.Plan(steps);
 }
 
-Result<ReadingPlan> PlanAngle(const Session& session, const std::string& light,
-                              const FitSettings& settings) {
-  auto alone = AloneIn(session, light);
+Result<BeamPlan> PlanBeam(const Session& session, const std::string& light,
+                          const FitSettings& settings, const LadderWishes& wishes) {
+  auto alone = fit::AloneIn(session, light);
   if (!alone) return Propagate(std::move(alone));
-  return Planner(*std::move(alone), settings, LadderWishes{}.reach_m, true).Plan(1);
+  Planner planner(*std::move(alone), settings, wishes.reach_m);
+  auto angle = planner.Angle();
+  if (!angle) return Propagate(std::move(angle));
+  planner.Skip(wishes.skip);
+  planner.Tell(wishes.progress);
+  auto ladder = planner.Ladder(wishes);
+  if (!ladder) return Propagate(std::move(ladder));
+  return BeamPlan{*std::move(angle), *std::move(ladder)};
 }
 
 Result<MinutesLadder> PlanMinutes(const Session& session, const std::string& light,
                                   const FitSettings& settings, const LadderWishes& wishes) {
-  auto alone = AloneIn(session, light);
+  auto alone = fit::AloneIn(session, light);
   if (!alone) return Propagate(std::move(alone));
   Planner planner(*std::move(alone), settings, wishes.reach_m);
   planner.Skip(wishes.skip);

@@ -43,10 +43,6 @@ struct ReadingPlan {
 // Whether they ask for the same: what to do, and where.
 [[nodiscard]] bool SameStep(const PlannedReading& a, const PlannedReading& b);
 
-// The same of angles off the axis alone, one step, of a lamp whose beam readings told.
-[[nodiscard]] Result<ReadingPlan> PlanAngle(const Session& session, const std::string& light,
-                                            const FitSettings& settings);
-
 struct LadderWishes {
   MeasuringMinutes minutes{};
   double reach_m = 4.0;  // how far from the lamp a meter can stand; more where it already has
@@ -62,6 +58,15 @@ struct LadderWishes {
 [[nodiscard]] Result<MinutesLadder> PlanMinutes(const Session& session, const std::string& light,
                                                 const FitSettings& settings,
                                                 const LadderWishes& wishes);
+
+// Of a lamp whose beam readings told: an angle off the axis, one step as PlanReadings ranks them,
+// and the ladder. What both try is tried once.
+struct BeamPlan {
+  ReadingPlan angle;
+  MinutesLadder ladder;
+};
+[[nodiscard]] Result<BeamPlan> PlanBeam(const Session& session, const std::string& light,
+                                        const FitSettings& settings, const LadderWishes& wishes);
 
 // "read at 1.41 m, facing the lamp", "hold a shadow card at 0.5 m ...".
 [[nodiscard]] std::string SayPlannedReading(const PlannedReading& reading);
