@@ -76,12 +76,39 @@ def filament(x):
 
 
 held(dali, "dimmer", [100, 75, 50, 25, 10], [87, 62, 40, 17], widest=0.04)
-held(dali, "dimmer", [100, 50, 20], [75, 30], widest=0.08)
+# Three readings are on any law: what a knee between them leaves open is in the interval.
+held(dali, "dimmer", [100, 50, 20], [75, 30], widest=0.17)
 for law in gamma, filament, dali:
     held(law, "dimmer", [100, 20], [50, 35], widest=1.6)
 held(const_flux, "zoom_deg", [10, 25, 50], [15, 20, 35, 45], widest=0.12)
 held(knee, "dimmer", [100, 90, 80, 70, 60, 50, 40, 30, 20, 10], [95, 55, 25, 17], widest=0.07,
      least=0.8)  # no law of the program's bends at once: 91 % of 96
+
+
+# Drivers straight down to a knee that no reading shows, below it a quarter to .8 as bright, or not
+# going out: two asked of each, anywhere between the states.
+def held_of_knees(labels, widest, least, drivers=40):
+    inside, widths = [], []
+    for seed in range(drivers):
+        rng = np.random.default_rng(7000 + seed)
+        at = rng.uniform(8, 45)
+        height = at / 100 * (rng.uniform(0.9, 1.1) if seed % 3 == 1 else rng.uniform(0.25, 0.8))
+        floor = height * [0.0, rng.uniform(0.3, 0.8), rng.uniform(0, 0.3)][seed % 3]
+
+        def bent(x, at=at, height=height, floor=floor):
+            return np.interp(x, [0, at, 100], [floor, height, 1])
+        folder = read(bent, "dimmer", labels, seed)
+        for label in np.exp(rng.uniform(np.log(min(labels)), np.log(100), 2)).round(1):
+            part = answer("state", folder, "--at", f"dimmer={label}")["relative_to_full"]
+            inside.append(part["low95"] <= bent(label) <= part["high95"])
+            widths.append(np.log(part["high95"] / part["low95"]) / 2)
+    share, width = np.mean(inside), np.median(widths)
+    print(f"unseen knees {labels}: held {share:.0%}, +- {width:.1%}")
+    assert share >= least and width <= widest, (labels, share, width)
+
+
+held_of_knees([100, 50, 10], widest=0.16, least=0.9)
+held_of_knees([100, 50, 20, 5], widest=0.16, least=0.9)
 
 # What was read and what lies a hair beside it are one answer; nothing is darker than a lower state.
 steps = read(knee, "dimmer", [100, 90, 80, 70, 60, 50, 40, 30, 20, 10], 0, noise=0)

@@ -74,6 +74,7 @@ class ControlPrior {
   [[nodiscard]] bool HasMany() const { return kinds_.size() > 1; }
 
  private:
+  [[nodiscard]] std::vector<Rests> LevelRests() const;
   [[nodiscard]] double Plain(std::size_t control, double label) const;
 
   std::vector<ControlKind> kinds_;

@@ -27,7 +27,9 @@ SLOPE_OF_REST = 6.5  # of a driver, up to full
 POWER_OF_ZOOM, POWER_SD_OF_ZOOM = -1.0, 1.0
 SPAN_OF_LOGARITHMIC, WEIGHT_OF_LOGARITHMIC = 3.0, 0.35
 ZERO_SCALE = 0.06  # of where a dimmer's light begins
-LEVEL_RESTS = ((0.003, 0.7), (0.012, 1.5), (0.03, 3.0), (0.1, 0.6), (0.3, 0.15))
+SMOOTH = ((0.003, 0.7), (0.012, 1.5), (0.03, 3.0), (0.1, 0.6), (0.3, 0.15))
+SUDDEN = SMOOTH[:4] + ((0.3, 3.0),)  # of light: a knee between two states shows in neither
+BENDS = SMOOTH[:3] + ((0.1, 4.8), (0.3, 9.0), (0.8, 6.0))
 OTHER_RESTS = ((0.008, 1.0), (0.04, 2.0), (0.16, 2.0), (0.4, 0.7))
 REPEATS = {'mired': 0.001, 'duv': 2e-4}
 
@@ -217,9 +219,11 @@ class Curve:
         level = 'level' in self.kinds
         others = any(kind != 'level' for kind in self.kinds)
         none = ((0.0, 1.0),)
-        lengths = ((0.25, False), (1.5, False), (0.3, True)) if level else ((1.0, False),)
-        for a, by_a in LEVEL_RESTS if level else none:
-            for length, by_label in lengths:
+        light = self.target == 'light'
+        levels = ((0.25, False, SUDDEN if light else SMOOTH), (1.5, False, SMOOTH),
+                  (0.3, True, BENDS if light else SMOOTH)) if level else ((1.0, False, none),)
+        for length, by_label, sizes in levels:
+            for a, by_a in sizes:
                 for b, by_b in OTHER_RESTS if others else none:
                     for c, by_c in ((0.002, 1.5), (0.015, 1.0)) if len(self.kinds) > 1 else none:
                         yield (a, length, by_label, b, c, by_a * by_b * by_c)
