@@ -117,6 +117,26 @@ std::string SpectrumText(const FittedLight& light, const StateAnswer& answer) {
          PercentText(emitters.residual);
 }
 
+// A panel that was read at two colour temperatures alone, asked between them.
+std::string NextOf(const FittedLight& light, const FixtureState& at) {
+  const auto here = NumberOfControl(at, kCctControl);
+  if (!here) return "";
+  double low = *here, high = *here;
+  for (const MeasuredState& one : light.states) {
+    const double kelvin = NumberOfControl(one.state, kCctControl).value_or(*here);
+    low = std::min(low, kelvin);
+    high = std::max(high, kelvin);
+  }
+  const auto is_end = [&](const MeasuredState& one) {
+    const double kelvin = NumberOfControl(one.state, kCctControl).value_or(*here);
+    return kelvin == low || kelvin == high;
+  };
+  if (!(low < *here && *here < high) || !std::ranges::all_of(light.states, is_end)) return "";
+  const double middle = 100.0 * std::round(0.01 * std::sqrt(low * high));
+  return "read one state near the middle, " + std::string(kCctControl) + "=" +
+         RoundedText(middle, 4) + ": its two ends do not tell how a lamp fades between them";
+}
+
 std::string Told(const FittedLight& light, const StateAnswer& answer) {
   std::string text = light.name + " at " + StateText(answer.state) + ": " +
                      std::string(kBasisTexts[static_cast<std::size_t>(answer.basis)]) + "\n";
@@ -138,6 +158,8 @@ std::string Told(const FittedLight& light, const StateAnswer& answer) {
   }
   const std::string spectrum = SpectrumText(light, answer);
   if (!spectrum.empty()) text += LabelledLine("spectrum", spectrum);
+  const std::string next = NextOf(light, answer.state);
+  if (!next.empty()) text += LabelledLine("next", next);
   return text;
 }
 

@@ -9,7 +9,9 @@ import sys
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "bench/fixture_states"))
 from built_command import HOME, answer  # noqa: E402
+from fixtures import cct_of, planck  # noqa: E402
 
 HEAD = """lightcal = 1
 [room]
@@ -87,7 +89,7 @@ held(knee, "dimmer", [100, 90, 80, 70, 60, 50, 40, 30, 20, 10], [95, 55, 25, 17]
 
 # Drivers straight down to a knee that no reading shows, below it a quarter to .8 as bright, or not
 # going out: two asked of each, anywhere between the states.
-def held_of_knees(labels, widest, least, drivers=40):
+def held_of_knees(labels, widest, least, drivers=24):
     inside, widths = [], []
     for seed in range(drivers):
         rng = np.random.default_rng(7000 + seed)
@@ -126,6 +128,56 @@ ends = HEAD + "".join(
 kelvin = answer("state", HOME / "ends", "--at", "cct_K=4000")["cct_K"]
 # A mix that is even in mired, and one that is even in kelvin, of two such white LEDs.
 assert kelvin["low95"] <= 3740 and kelvin["high95"] >= 4235, kelvin
+
+
+# Panels that fade from a warm to a cool channel of unequal light: a share linear in the label or in
+# its mireds, as drives or of one power, or calibrated; both channels full half way, or not.
+def panel(rng):
+    low, high = [(2700, 6500), (3200, 5600), (2700, 5600)][rng.integers(3)]
+    warm, cool = planck(low), planck(high)
+    of_warm, of_cool = np.exp(rng.normal(0, 0.2, 2))
+    law, hump = rng.integers(4), rng.choice([0, 0.5, 1])
+    half_way = [(1 - k) * warm + k * cool for k in np.linspace(0, 1, 201)]
+    mireds = np.array([1e6 / cct_of(xyz) for xyz in half_way])
+
+    def xyz(label):
+        share = (label - low) / (high - low)
+        if law == 2:
+            share = (1 / low - 1 / label) / (1 / low - 1 / high)
+        if law == 3:
+            share = np.interp(-1e6 / label, -mireds, np.linspace(0, 1, 201))
+        power = of_warm + (of_cool - of_warm) * share
+        a, b = (of_warm, of_cool) if law in (0, 2) else (power, power)
+        return (1 + hump * 4 * share * (1 - share)) * (a * (1 - share) * warm + b * share * cool)
+    return low, high, xyz
+
+
+def faded(states):
+    light_held, kelvin_held = [], []
+    for seed in range(24):
+        rng = np.random.default_rng(9000 + seed)
+        low, high, xyz = panel(rng)
+        labels = [low, high] if states == 2 else [low, 4000, high]
+        text = HEAD
+        for label in labels:
+            x, y, z = xyz(label)
+            text += (f'[[reading]]\nlight = "k"\nmeter = "m"\nstate = {{ cct_K = {label} }}\n'
+                     f"illuminance_lx = {3000 * y * np.exp(rng.normal(0, 0.01)):.8g}\n"
+                     f'xy = [{x / (x + y + z):.5f}, {y / (x + y + z):.5f}]\ncolor_source = "spectrometer"\n')
+        folder = HOME / f"panel{states}{seed}"
+        folder.mkdir()
+        (folder / "session.toml").write_text(text, encoding="utf-8")
+        asked = round(low + (high - low) * rng.uniform(0.2, 0.8))
+        found, truth = answer("state", folder, "--at", f"cct_K={asked}"), xyz(asked)
+        lux, kelvin = found["illuminance_lx"], found["cct_K"]
+        light_held.append(lux["low95"] <= 3000 * truth[1] <= lux["high95"])
+        kelvin_held.append(kelvin["low95"] <= cct_of(truth) <= kelvin["high95"])
+    print(f"panels of {states} states: light held {np.mean(light_held):.0%}, CCT {np.mean(kelvin_held):.0%}")
+    assert np.mean(light_held) >= 0.9 and np.mean(kelvin_held) >= 0.9, states
+
+
+faded(2)
+faded(3)
 
 # 0 lx is what a lamp gives below where it comes on, and is said to be.
 (HOME / "out").mkdir()

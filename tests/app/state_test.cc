@@ -101,6 +101,19 @@ TEST(StateCommand, TwoStatesAreNotToldByEachOtherAndNothingIsSaidOfIt) {
   EXPECT_THAT(RunLightcal({"state", Panels()}).out, HasSubstr("left out: what the other states"));
 }
 
+TEST(StateCommand, TwoColourTemperaturesAskForOneInTheMiddle) {
+  const TempDir folder;
+  const std::string ends =
+      DarkSession() + StateRow(1.0, 1000.0, "cct_K = 2700") + StateRow(1.0, 1000.0, "cct_K = 6500");
+  const std::string two = folder.Write("session.toml", ends);
+  EXPECT_THAT(RunLightcal({"state", two, "--at", "cct_K=5000"}).out,
+              HasSubstr("read one state near the middle, cct_K=4200"));
+  const std::string three =
+      folder.Write("three/session.toml", ends + StateRow(1.0, 1000.0, "cct_K = 4200"));
+  EXPECT_THAT(RunLightcal({"state", three, "--at", "cct_K=5000"}).out,
+              ::testing::Not(HasSubstr("near the middle")));
+}
+
 TEST(StateCommand, RefusesWhatWasNotReadRatherThanGuess) {
   const auto code = [](const std::string& at) {
     const CliResult run =

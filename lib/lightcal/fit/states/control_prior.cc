@@ -30,6 +30,13 @@ constexpr double kSpanOfLogarithmic = 3.0;
 constexpr double kPowerOfLogarithmic = 1.8, kPowerSdOfLogarithmic = 0.5;
 constexpr double kWeightOfLogarithmic = 0.35;  // beside all straight lines
 constexpr double kPowerOfZoom = -1.0, kPowerSdOfZoom = 1.0;
+// Of panels that fade from a warm channel to a cool one, half way between the outermost labels read
+// (0 at both, a parabola of ln label between): ln of their light (both channels full there: twice,
+// or one power shared: none more), and of their mireds over the square of ln of the labels' ratio
+// (a share linear in kelvin is warmer than its label by .19, one linear in mireds is about it;
+// channels of unequal light by .1 more or less). Mean and 1 sigma.
+constexpr double kLightOfFade = 0.28, kLightSdOfFade = 0.24;
+constexpr double kMiredOfFade = 0.09, kMiredSdOfFade = 0.10;
 // How far from label 0 a dimmer's light begins, or what is left of it there: a Cauchy density of
 // this scale, for half of them within 6 %, a tenth beyond 38 %.
 constexpr double kZeroScale = 0.06;
@@ -97,6 +104,7 @@ ControlPrior::ControlPrior(std::vector<ControlKind> kinds, CurveTarget target,
       most = std::max(most, along);
       sum += along;
     }
+    least_along_.push_back(least);
     middle_.push_back(sum / static_cast<double>(points.size()));
     span_.push_back(most > least ? most - least : 1.0);
   }
@@ -105,6 +113,19 @@ ControlPrior::ControlPrior(std::vector<ControlKind> kinds, CurveTarget target,
   formed_ = static_cast<std::size_t>(level - kinds_.begin());
   least_ = std::numeric_limits<double>::infinity();
   for (const CurvePoint& point : points) least_ = std::min(least_, point.at[formed_]);
+}
+
+double ControlPrior::Faded(std::size_t control, double along) const {
+  if (kinds_[control] != ControlKind::kTemperature) return 0.0;
+  const double inside = (along - least_along_[control]) / span_[control];
+  return 4.0 * inside * (1.0 - inside);
+}
+
+ControlPrior::Fade ControlPrior::FadeOf(std::size_t control) const {
+  if (target_ == CurveTarget::kLnLight) return {kLightOfFade, kLightSdOfFade};
+  if (target_ != CurveTarget::kLnMired) return {};
+  const double square = span_[control] * span_[control];
+  return {kMiredOfFade * square, kMiredSdOfFade * square};
 }
 
 double ControlPrior::Plain(std::size_t control, double label) const {
@@ -140,6 +161,9 @@ Seen ControlPrior::See(const std::vector<double>& labels, const LevelForm& form)
       } else if (kinds_[i] == ControlKind::kZoom && target_ == CurveTarget::kLnLight) {
         out.mean += kPowerOfZoom * along;
       }
+      const double faded = Faded(i, along);
+      out.mean += FadeOf(i).mean * faded;
+      out.faded += FadeOf(i).sd * faded;
       along = (along - middle_[i]) / span_[i];
     }
     out.along.push_back(along);
@@ -180,7 +204,7 @@ double ControlPrior::Covariance(const LevelForm& form, const Rests& rests, const
                                 const Seen& b) const {
   const TargetScale& by = ScaleOf(target_);
   const double level = by.level_rest * rests.level;
-  double sum = kConstantVariance;
+  double sum = kConstantVariance + a.faded * b.faded;
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const double u = a.along[i];
     const double v = b.along[i];

@@ -43,6 +43,7 @@ struct Seen {
   std::vector<double> labels;  // as they were said
   double mean = 0.0;
   double ln_level = 0.0, by_zero = 0.0;  // of the formed level
+  double faded = 0.0;                    // what a fade between two channels may add, 1 sigma
 };
 
 // The hypotheses of one set of controls and points.
@@ -75,13 +76,19 @@ class ControlPrior {
 
  private:
   [[nodiscard]] std::vector<Rests> LevelRests() const;
+  struct Fade {
+    double mean = 0.0, sd = 0.0;
+  };
+  [[nodiscard]] Fade FadeOf(std::size_t control) const;
+  [[nodiscard]] double Faded(std::size_t control, double along) const;
   [[nodiscard]] double Plain(std::size_t control, double label) const;
 
   std::vector<ControlKind> kinds_;
   CurveTarget target_;
-  std::vector<double> middle_, span_;  // of each control's coordinate, over the points
-  std::size_t formed_ = 0;             // the first level, if there is one
-  double least_ = 0.0;                 // its label, of the points
+  std::vector<double> middle_, span_,
+      least_along_;         // of each control's coordinate, over the points
+  std::size_t formed_ = 0;  // the first level, if there is one
+  double least_ = 0.0;      // its label, of the points
 };
 
 }  // namespace lightcal::fit

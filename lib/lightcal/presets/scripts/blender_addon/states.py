@@ -22,6 +22,8 @@ NEAREST, NEAREST_TO_FULL = 20, 10
 # level rest, other rest, joint rest, level slope, other slope
 SCALES = {'light': (1.0, 1.0, 1.0, 0.0, 0.5), 'mired': (0.2, 0.4, 0.3, 0.3, 0.3),
           'duv': (0.05, 0.03, 0.05, 0.002, 0.004)}
+# Of a fade between two channels, half way: mean and 1 sigma; mireds by the square of the range.
+FADES = {'light': (0.28, 0.24), 'mired': (0.09, 0.10), 'duv': (0.0, 0.0)}
 OTHER_LENGTH = 0.45  # of a control's range
 SLOPE_OF_REST = 6.5  # of a driver, up to full
 POWER_OF_ZOOM, POWER_SD_OF_ZOOM = -1.0, 1.0
@@ -101,7 +103,7 @@ class Curve:
         self.target = target
         self.values, self.sds = np.array(values), np.array(sds)
         plain = np.stack([self.plain(i, self.points[:, i]) for i in range(len(kinds))], axis=1)
-        self.middle = plain.mean(axis=0)
+        self.middle, self.least = plain.mean(axis=0), plain.min(axis=0)
         span = plain.max(axis=0) - plain.min(axis=0)
         self.span = np.where(span > 0.0, span, 1.0)
         self.average()
@@ -115,11 +117,12 @@ class Curve:
         return np.log(1e6 / labels) if kind == 'temperature' else labels
 
     def see(self, labels, form):
-        """(coordinates, mean, ln of the formed level, its slope by the zero, labels), a row a
-        state."""
+        """(coordinates, mean, ln of the formed level, its slope by the zero, labels,
+        what a fade may add), a row a state."""
         control, bend, zero, _, power, _, _ = form
         along, count = [], len(labels)
         mean, ln_level, by_zero = np.zeros(count), np.zeros(count), np.zeros(count)
+        faded = np.zeros(count)
         for i, kind in enumerate(self.kinds):
             x = self.plain(i, labels[:, i])
             if i == control:
@@ -133,15 +136,21 @@ class Curve:
                     mean = mean + x
                 if kind == 'zoom' and self.target == 'light':
                     mean = mean + POWER_OF_ZOOM * x
+                if kind == 'temperature':
+                    inside = (x - self.least[i]) / self.span[i]
+                    scale = self.span[i] ** 2 if self.target == 'mired' else 1.0
+                    fade = 4.0 * inside * (1.0 - inside) * scale
+                    mean = mean + FADES[self.target][0] * fade
+                    faded = faded + FADES[self.target][1] * fade
                 x = (x - self.middle[i]) / self.span[i]
             along.append(x)
-        return np.stack(along, axis=1), mean, ln_level, by_zero, labels
+        return np.stack(along, axis=1), mean, ln_level, by_zero, labels, faded
 
     def covariance(self, form, rests, a, b):
         level_rest, other_rest, joint_rest, level_slope, other_slope = SCALES[self.target]
         control, bend, _, step, _, power_sd, _ = form
         level, level_length, by_label, other, joint, _ = rests
-        total = np.full((len(a[1]), len(b[1])), CONSTANT_VARIANCE)
+        total = CONSTANT_VARIANCE + np.outer(a[5], b[5])
         together = np.ones_like(total)
         for i, kind in enumerate(self.kinds):
             u, v = a[0][:, i][:, None], b[0][:, i][None, :]
