@@ -124,6 +124,11 @@ TEST(StateCommand, RefusesWhatWasNotReadRatherThanGuess) {
   EXPECT_EQ(code("dimmer=2,cct_K=4000"), "outside_states");
   EXPECT_EQ(code("dimmer=50,cct_K=6500"), "outside_states");
   EXPECT_EQ(code("dimmer=50"), "state_controls");
+  const auto told = [](const std::string& at) {
+    return RunLightcal({"state", Panels(), "--light", "panel", "--at", at}).err;
+  };
+  EXPECT_THAT(told("dimmer=50"), HasSubstr("dimmer=50 does not say cct_K"));
+  EXPECT_THAT(told("dimmer=50,cct_K=4000,zoom_deg=20"), HasSubstr("says zoom_deg, which none"));
   const json combined =
       LightcalJson("state", {Panels(), "--light", "panel", "--at", "dimmer=12,cct_K=5000"});
   EXPECT_EQ(combined["basis"], "combined");

@@ -161,9 +161,25 @@ Result<void> CheckControlsOf(const FittedLight& light, const FixtureState& at) {
     return a.name == b.name && a.IsWord() == b.IsWord();
   });
   if (same) return {};
+  const auto without = [](const FixtureState& some, const FixtureState& others) {
+    std::string names;
+    for (const ControlValue& one : some) {
+      if (std::ranges::find(others, one.name, &ControlValue::name) != others.end()) continue;
+      names += (names.empty() ? "" : ", ") + one.name;
+    }
+    return names;
+  };
+  const std::string missing = without(known, at);
+  const std::string unknown = without(at, known);
+  std::string what;
+  if (!missing.empty()) what = " does not say " + missing;
+  if (!unknown.empty()) {
+    what += (what.empty() ? "" : ", and") + std::string(" says ") + unknown +
+            ", which none of them does";
+  }
+  if (what.empty()) what = " says a number where they say a word, or a word for a number";
   return Refused("state_controls", light.name,
-                 "was read at states such as " + StateText(known) + "; " + StateText(at) +
-                     " does not say the same controls");
+                 "was read at states such as " + StateText(known) + "; " + StateText(at) + what);
 }
 
 Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
