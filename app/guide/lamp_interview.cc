@@ -108,6 +108,8 @@ std::string TargetMenu() {
   return menu + line + "\n";
 }
 
+constexpr double kWidestBeam_deg = 170.0;
+
 // "9W 806lm 2900K 36deg", in any order.
 Result<NewSession> ParseBox(const std::string& text) {
   NewSession box;
@@ -119,13 +121,21 @@ Result<NewSession> ParseBox(const std::string& text) {
     if (!split) return tl::unexpected(split.error());
     const std::string unit = LowerAscii(split->unit);
     const bool positive = split->number > 0.0;
+    const bool degrees = unit == "deg" || unit == "°";
+    if (degrees && !(split->number < kWidestBeam_deg)) {
+      return WrongUsage(
+          "\"" + word + "\"",
+          word +
+              " is no beam: a beam angle goes to below 170 degrees; a box that says 200 to "
+              "360 is a bulb's, which shines to all sides: leave the angle out");
+    }
     if (positive && unit == "w") {
       box.light.electrical = Watts(split->number);
     } else if (positive && unit == "lm") {
       box.light.flux = Lumens(split->number);
     } else if (positive && unit == "k") {
       box.cct = Kelvin(split->number);
-    } else if (positive && split->number < 180.0 && (unit == "deg" || unit == "°")) {
+    } else if (positive && degrees) {
       box.light.beam = RadiansFromDegrees(split->number);
     } else {
       return WrongUsage("\"" + word + "\"",

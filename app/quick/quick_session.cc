@@ -88,6 +88,12 @@ Result<void> CheckAngles(std::optional<Radians> inner, std::optional<Radians> ou
   if (inner && *inner > *outer) {
     return WrongUsage("--inner", "exceeds --outer; both count from the axis: swap them");
   }
+  if (light.beam && !(*light.beam < RadiansFromDegrees(170.0))) {
+    return WrongUsage(
+        "--beam",
+        "goes to below 170 degrees; a lamp that shines wider is no beam: leave it out, "
+        "and of a bulb (its box says 200 to 360) say --fixture bulb");
+  }
   if (light.field && !light.beam) {
     return WrongUsage("--field", "stands beside a beam angle: add --beam, at half of the middle");
   }

@@ -120,17 +120,11 @@ TEST(NewSession, AFlagThatCannotBeReadIsNamedAndNothingWritten) {
   const NoUsb machine;
   const TempDir home;
   const std::string session = home.path() + "/s";
-  const std::vector<std::vector<std::string>> wrong = {{"--kind", "bulb"},
-                                                       {"--diameter", "6cm"},
-                                                       {"--box", "9"},
-                                                       {"--meter", "sekonik:1"},
-                                                       {"--accuracy", "300%"},
-                                                       {"--to", "maya"},
-                                                       {"--room", "5,4"},
-                                                       {"--reflectance", "0.5"},
-                                                       {"--lamp", "a/b"},
-                                                       {"--kind", "photometric"},
-                                                       {"--kind", "tube", "--length", "-1m"}};
+  const std::vector<std::vector<std::string>> wrong = {
+      {"--kind", "bulb"},        {"--diameter", "6cm"},     {"--box", "9"},
+      {"--box", "806lm 200deg"}, {"--meter", "sekonik:1"},  {"--accuracy", "300%"},
+      {"--to", "maya"},          {"--room", "5,4"},         {"--reflectance", "0.5"},
+      {"--lamp", "a/b"},         {"--kind", "photometric"}, {"--kind", "tube", "--length", "-1m"}};
   for (const auto& flags : wrong) {
     std::vector<std::string> command = {"new", session, "--yes"};
     command.insert(command.end(), flags.begin(), flags.end());

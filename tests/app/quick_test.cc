@@ -267,6 +267,15 @@ TEST(QuickPlan, TheAdviceDoesNotHangOnTheTenthDigit) {
   EXPECT_EQ(advice.size(), 1U) << testing::PrintToString(advice);
 }
 
+TEST(Quick, ABulbsAngleIsNoBeamAndItSaysWhatToWrite) {
+  for (const char* wide : {"170", "200", "240deg"}) {
+    const CliResult result = RunLightcal({"quick", "--lumens", "806", "--beam", wide});
+    EXPECT_EQ(result.exit_code, 2) << wide;
+    EXPECT_NE(result.err.find("below 170 degrees"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("--fixture bulb"), std::string::npos) << result.err;
+  }
+}
+
 TEST(QuickPlan, AskedWrongItSaysWhatToWrite) {
   for (const char* wrong : {"card", "cards=1", "move=-1", "move=soon"}) {
     const CliResult result = RunLightcal({"quick", "--plan", "--minutes", wrong});
