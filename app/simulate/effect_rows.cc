@@ -19,7 +19,7 @@ constexpr std::array<const char*, kMapForms> kFormWords = {
 // ns a point on one processor, by form (tests/bench/simulate_bench.cc); kExact by kind.
 constexpr std::array<double, kMapForms> kPrice_ns = {0.0,  2.0, 3.0, 6.0, 12.0,
                                                      20.0, 0.0, 0.5, 0.0, 1.5};
-constexpr double kWalls_ns = 18000.0;  // WallLight::At
+constexpr double kWalls_ns = 24000.0;  // WallLight::At
 constexpr double kDisk_ns = 17.0, kRect_ns = 80.0, kTube_ns = 440.0, kTable_ns = 60.0,
                  kSphere_ns = 6.0;
 
@@ -130,8 +130,7 @@ EffectRow BounceRow(const MapSettings& settings, const PlacedLamp& lamp, const L
       row.where = PercentOf(each + between, all);
       if (each > 0) row.points.Put("at_point", each);
       if (between > 0) row.points.Put("interpolated", between);
-      row.reason = "first bounce of " + std::to_string(account.bounce_evaluated) +
-                   " points and the mean of further ones" +
+      row.reason = "all bounces at " + std::to_string(account.bounce_evaluated) + " points" +
                    (between > 0 ? ", interpolated between" : "");
     } else {
       row.reason =

@@ -110,8 +110,9 @@ TEST(IlluminanceMap, TheGateIsWithinItsToleranceOfAllEffectsInRandomRooms) {
       }
     }
   }
-  // Even on so coarse a grid the walls are asked at few of its points.
-  EXPECT_LT(asked / scenes, 0.5);
+  // Even on so coarse a grid the walls are not asked at each of its points; 0.45 while the further
+  // bounces were the same everywhere, 0.63 since they have their place.
+  EXPECT_LT(asked / scenes, 0.65);
   RecordProperty("walls_asked_share", std::to_string(asked / scenes));
 }
 

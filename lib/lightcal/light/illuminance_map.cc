@@ -43,7 +43,8 @@ LampAccount& LampAccount::operator+=(const LampAccount& other) {
 IlluminancePredictor::IlluminancePredictor(std::span<const PlacedLamp> lamps,
                                            const MapSettings& settings)
     : settings_(settings) {
-  for (const PlacedLamp& lamp : lamps) lamps_.emplace_back(lamp, settings_);
+  const auto shared = std::make_shared<SharedExchange>();
+  for (const PlacedLamp& lamp : lamps) lamps_.emplace_back(lamp, settings_, shared);
 }
 IlluminancePredictor::~IlluminancePredictor() = default;
 IlluminancePredictor::IlluminancePredictor(IlluminancePredictor&&) noexcept = default;

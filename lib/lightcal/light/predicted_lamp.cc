@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "lightcal/light/effects/finite_source.h"
 #include "lightcal/light/effects/narrow_beam.h"
@@ -27,15 +28,19 @@ SourceDetail DetailOf(EffectChoice finite_source, double tolerance) {
   return {false, finite_source == EffectChoice::kAlways ? 0.0 : tolerance};
 }
 
-PredictedLamp::PredictedLamp(const PlacedLamp& lamp, const MapSettings& settings)
-    : lamp_(Settled(lamp)), haze_per_m_(settings.haze_per_m), room_(settings.room) {
+PredictedLamp::PredictedLamp(const PlacedLamp& lamp, const MapSettings& settings,
+                             std::shared_ptr<SharedExchange> shared)
+    : lamp_(Settled(lamp)),
+      haze_per_m_(settings.haze_per_m),
+      room_(settings.room),
+      shared_(std::move(shared)) {
   const LampDoubt& doubt = lamp.doubt;
   shape_unsure_ = doubt.place.has_value() || doubt.aim_rad > 0.0 || doubt.inner_rad > 0.0 ||
                   doubt.outer_rad > 0.0 || doubt.pattern != nullptr;
   const bool walls = room_ && room_->reflectance > 0.0 &&
                      settings.room_bounce != EffectChoice::kNever && !IsEverywhere(lamp.source);
   if (!walls) return;
-  coarse_.emplace(*room_, lamp_, WallLight::Detail::kCoarse);
+  coarse_.emplace(WallLight::Coarse(*room_, lamp_));
   FindHotSpots();
 }
 
@@ -64,8 +69,9 @@ void PredictedLamp::FindHotSpots() {
 }
 
 const WallLight& PredictedLamp::Walls() const {
-  std::call_once(fine_->once,
-                 [this] { fine_->walls.emplace(*room_, lamp_, WallLight::Detail::kFine); });
+  std::call_once(fine_->once, [this] {
+    fine_->walls.emplace(WallLight::Fine(*room_, lamp_, shared_->Of(*room_)));
+  });
   return *fine_->walls;
 }
 

@@ -11,6 +11,7 @@
 
 #include "lightcal/core/uncertain.h"
 #include "lightcal/light/illuminance_map.h"
+#include "lightcal/light/room_exchange.h"
 #include "lightcal/light/wall_light.h"
 
 namespace lightcal {
@@ -21,9 +22,24 @@ struct HotSpot {
   double size_m = 0.0;
 };
 
+// One for all lamps of a room, found when first asked for.
+class SharedExchange {
+ public:
+  [[nodiscard]] const RoomExchange& Of(const RoomBox& room) {
+    std::call_once(once_, [&] { exchange_.emplace(room); });
+    return *exchange_;
+  }
+
+ private:
+  std::once_flag once_;
+  std::optional<RoomExchange> exchange_;
+};
+
 class PredictedLamp {
  public:
-  PredictedLamp(const PlacedLamp& lamp, const MapSettings& settings);
+  // `shared`: of the settings' room.
+  PredictedLamp(const PlacedLamp& lamp, const MapSettings& settings,
+                std::shared_ptr<SharedExchange> shared);
 
   [[nodiscard]] const PlacedLamp& lamp() const { return lamp_; }
   // Whether more than its strength and offset is unsure: u95/E then is no smooth field.
@@ -61,6 +77,7 @@ class PredictedLamp {
     std::once_flag once;
     std::optional<WallLight> walls;
   };
+  std::shared_ptr<SharedExchange> shared_;
   std::unique_ptr<Fine> fine_ = std::make_unique<Fine>();
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "lightcal/core/uncertain.h"
 #include "lightcal/light/room_bounce.h"
@@ -15,6 +16,7 @@ constexpr double kLampInside = 0.05;  // metres between a lamp and the wall it w
 constexpr double kTouching = 1e-4;
 constexpr int kFineSide = 10, kCoarseSide = 6;
 constexpr double kFineTolerance = 3e-3, kCoarseTolerance = 5e-2;
+constexpr double kFurtherTolerance = 1e-2;  // of patches that are about alike
 
 double Low(const RoomBox& room, int axis) { return axis == 2 ? 0.0 : -0.5 * room.size_m[axis]; }
 
@@ -62,6 +64,16 @@ double DiskLuxPerCandela(const RectSource& patch, const Receiver<double>& at) {
 
 }  // namespace
 
+WallLight WallLight::Fine(const RoomBox& room, const PlacedLamp& lamp,
+                          const RoomExchange& exchange) {
+  WallLight out(room, lamp, Detail::kFine);
+  out.AddFurther(exchange);
+  return out;
+}
+WallLight WallLight::Coarse(const RoomBox& room, const PlacedLamp& lamp) {
+  return {room, lamp, Detail::kCoarse};
+}
+
 WallLight::WallLight(const RoomBox& room, const PlacedLamp& lamp, Detail detail)
     : room_(room), detail_(detail) {
   const int side = detail == Detail::kFine ? kFineSide : kCoarseSide;
@@ -105,7 +117,7 @@ void WallLight::AddWall(const PlacedLamp& lamp, int axis, bool upper, int side) 
     for (int j = 0; j < side; ++j) {
       const double half_u = 0.5 * (us[i + 1] - us[i]);
       const double half_v = 0.5 * (vs[j + 1] - vs[j]);
-      Patch patch{{half_u, half_v}, {{}, frame, 0.0}, 0.0};
+      WallPatch patch{{half_u, half_v}, {{}, frame, 0.0}};
       patch.pose.position_m[axis] = at;
       patch.pose.position_m[u] = 0.5 * (us[i + 1] + us[i]);
       patch.pose.position_m[v] = 0.5 * (vs[j + 1] + vs[j]);
@@ -113,32 +125,49 @@ void WallLight::AddWall(const PlacedLamp& lamp, int axis, bool upper, int side) 
       const double lux = detail_ == Detail::kCoarse
                              ? LuxOf(lamp, wall, {false, kCoarseTolerance})
                              : MeanLux(lamp, wall, along * half_u, across * half_v);
-      patch.candela = room_.reflectance * lux * 4.0 * half_u * half_v / std::numbers::pi;
-      if (patch.candela > 0.0) patches_.push_back(patch);
+      Shine(patch, lux, kFineTolerance);
     }
   }
+}
+
+void WallLight::Shine(const WallPatch& patch, double lux, double tolerance) {
+  const double candela = room_.reflectance * lux * patch.area_m2() / std::numbers::pi;
+  if (candela > 0.0) patches_.push_back({patch, candela, tolerance});
+}
+
+// What once came back from the walls lights them again, and so on.
+void WallLight::AddFurther(const RoomExchange& exchange) {
+  const double rho = room_.reflectance;
+  if (!(rho > 0.0)) return;
+  std::vector<double> once;
+  for (std::size_t i = 0; i < exchange.patches().size(); ++i) {
+    once.push_back(Sum(Inside(exchange.Middle(i))));
+  }
+  const std::vector<double> all = exchange.Settled(std::move(once), tail_ * (1.0 - rho) / rho);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    Shine(exchange.patches()[i], all[i], kFurtherTolerance);
 }
 
 SurfacePoint WallLight::Inside(const SurfacePoint& at) const {
   return {Clamped(at.position_m, room_, kTouching), at.normal};
 }
 
-double WallLight::First(const SurfacePoint& at) const {
+double WallLight::Sum(const SurfacePoint& at) const {
   double sum = 0.0;
-  for (const Patch& patch : patches_) {
+  for (const auto& [patch, candela, tolerance] : patches_) {
     const Receiver<double> receiver{patch.pose.frame.Of(at.position_m - patch.pose.position_m),
                                     patch.pose.frame.Of(at.normal)};
-    sum += patch.candela * (detail_ == Detail::kCoarse
-                                ? DiskLuxPerCandela(patch.source, receiver)
-                                : LuxPerCandela(patch.source, receiver, kFineTolerance));
+    sum +=
+        candela * (detail_ == Detail::kCoarse ? DiskLuxPerCandela(patch.source, receiver)
+                                              : LuxPerCandela(patch.source, receiver, tolerance));
   }
   return sum;
 }
 
-double WallLight::At(const SurfacePoint& at) const { return MeanBounce(First(Inside(at)), tail_); }
+double WallLight::At(const SurfacePoint& at) const { return Sum(Inside(at)); }
 
 double WallLight::BoundAt(const SurfacePoint& at) const {
-  return MostBounce(First(Inside(at)), tail_, even_);
+  return MostBounce(Sum(Inside(at)), tail_, even_);
 }
 
 double WallLight::u95_relative() const { return kZ95 * BounceSigma(even_); }

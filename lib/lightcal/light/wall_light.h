@@ -6,40 +6,46 @@
 #include <vector>
 
 #include "lightcal/light/placed_lamp.h"
+#include "lightcal/light/room_exchange.h"
 #include "lightcal/light/scene.h"
 
 namespace lightcal {
 
 // First bounce: each wall is cut into patches, graded by asinh about the lamp's foot. Further
-// bounces: their mean over the room, 1.15 rho^2 Phi/(A (1 - rho)), the same everywhere
-// (room_bounce.h says how well that holds).
+// bounces: the radiosity of the box (room_exchange.h), their mean over its walls
+// rho^2 Phi/(A (1 - rho)); of bounds that mean alone (room_bounce.h).
 class WallLight {
  public:
-  // kFine: 10 x 10 patches a wall, each lit at 2 x 2 Gauss points and shining as a Lambertian
-  // rectangle, within 3 % of a fine sum anywhere in the room. kCoarse: 6 x 6, each lit at its
-  // middle and shining as a disk, as room_bounce.h has them: for bounds, at a twentieth of the
-  // price.
-  enum class Detail : std::uint8_t { kFine, kCoarse };
-
+  // For values: 10 x 10 patches a wall, each lit at 2 x 2 Gauss points and shining as a Lambertian
+  // rectangle, and the room's own for the further bounces.
+  // For bounds, at a twentieth of the price: 6 x 6, each lit at its middle and shining as a disk,
+  // as room_bounce.h has them.
   // The lamp must follow a distance (not IsEverywhere); outside the room it counts as just inside.
-  WallLight(const RoomBox& room, const PlacedLamp& lamp, Detail detail);
+  [[nodiscard]] static WallLight Fine(const RoomBox& room, const PlacedLamp& lamp,
+                                      const RoomExchange& exchange);
+  [[nodiscard]] static WallLight Coarse(const RoomBox& room, const PlacedLamp& lamp);
 
-  // First bounce and further ones.                                                      [lx]
+  // First bounce and further ones, of fine walls.                                       [lx]
   [[nodiscard]] double At(const SurfacePoint& at) const;
-  // What they cannot exceed (MostBounce).                                               [lx]
+  // What they cannot exceed (MostBounce), of coarse ones.                               [lx]
   [[nodiscard]] double BoundAt(const SurfacePoint& at) const;
   // 95 % interval of At, relative.
   [[nodiscard]] double u95_relative() const;
 
  private:
+  enum class Detail : std::uint8_t { kFine, kCoarse };
   struct Patch {
-    RectSource source;
-    LampPose pose;
+    WallPatch wall;
     double candela = 0.0;
+    double tolerance = 0.0;  // relative, of its light at a point
   };
+  WallLight(const RoomBox& room, const PlacedLamp& lamp, Detail detail);
+  void Shine(const WallPatch& patch, double lux, double tolerance);
   void AddWall(const PlacedLamp& lamp, int axis, bool upper, int side);
   [[nodiscard]] SurfacePoint Inside(const SurfacePoint& at) const;
-  [[nodiscard]] double First(const SurfacePoint& at) const;
+  void AddFurther(const RoomExchange& exchange);
+  // Of all patches.
+  [[nodiscard]] double Sum(const SurfacePoint& at) const;
 
   RoomBox room_;
   Detail detail_;
