@@ -18,7 +18,7 @@ namespace {
 constexpr double kUnnoticedUv = 0.0005;
 constexpr double kUnnoticedStops = 0.05;
 constexpr int kHalvings = 8;
-constexpr int kMostMoves = 40;
+constexpr int kMostMoves = 120;
 constexpr double kLeastCostGain = 2e-3;  // of a cost: 1e-6 in u'v', 0.002 stops
 constexpr double kFar = 1e9;
 
@@ -75,32 +75,91 @@ Found BestCandidate(const Lamps& lamps, const Cost& cost) {
   return best;
 }
 
-// Steps along each control by itself, from a sixteenth of its range, halved where none helps.
+struct Dial {
+  std::size_t lamp = 0;
+  LampSettings::Axis axis;
+};
+
+std::vector<Dial> DialsOf(const Lamps& lamps, const Settings& settings) {
+  std::vector<Dial> dials;
+  for (std::size_t i = 0; i < lamps.size(); ++i) {
+    for (const auto& axis : lamps[i]->AxesAt(settings[i].state)) dials.push_back({i, axis});
+  }
+  return dials;
+}
+
+// A dial turned by a part of its range, no farther than it goes.
+std::optional<Settings> Turned(const Lamps& lamps, Settings settings, const Dial& dial,
+                               double part) {
+  const auto& axis = dial.axis;
+  FixtureState state = settings[dial.lamp].state;
+  double& number = state[axis.control].number;
+  number = std::clamp(number + part * (axis.most - axis.least), axis.least, axis.most);
+  auto one = lamps[dial.lamp]->At(state);
+  if (!one) return std::nullopt;
+  settings[dial.lamp] = *std::move(one);
+  return settings;
+}
+
+// Another dial turned until the colour is `kept` again, by its slope in u'v' there.
+std::optional<Settings> TurnedBack(const Lamps& lamps, const Settings& settings, const Dial& dial,
+                                   Xy kept) {
+  constexpr double kPart = 0.005;
+  const auto& axis = dial.axis;
+  const double here = settings[dial.lamp].state[axis.control].number;
+  const double part = here + kPart * (axis.most - axis.least) <= axis.most ? kPart : -kPart;
+  const auto beside = Turned(lamps, settings, dial, part);
+  if (!beside) return std::nullopt;
+  const Uv1976 from = Uv1976FromXy(SumOf(settings).xy);
+  const Uv1976 to = Uv1976FromXy(SumOf(*beside).xy);
+  const Uv1976 wanted = Uv1976FromXy(kept);
+  const double u = (to.u - from.u) / part;
+  const double v = (to.v - from.v) / part;
+  const double square = u * u + v * v;
+  if (!(square > 1e-8)) return std::nullopt;
+  return Turned(lamps, settings, dial,
+                ((wanted.u - from.u) * u + (wanted.v - from.v) * v) / square);
+}
+
+// A setting that costs less: one dial turned by `step` of its range, or where none alone helps,
+// one turned and another turned back to the same colour. Light at a colour is a narrow valley that
+// leans across the dials wherever a dimmer moves the colour.
+std::optional<Found> Bettered(const Lamps& lamps, const Found& from, double step,
+                              const Cost& cost) {
+  const std::vector<Dial> dials = DialsOf(lamps, from.settings);
+  const auto better = [&](std::optional<Settings> settings) -> std::optional<Found> {
+    if (!settings) return std::nullopt;
+    const double value = cost(SumOf(*settings));
+    if (!(value < from.cost - kLeastCostGain)) return std::nullopt;
+    return Found{*std::move(settings), value};
+  };
+  std::vector<std::pair<std::size_t, Settings>> tried;
+  for (std::size_t i = 0; i < dials.size(); ++i) {
+    for (const double sign : {1.0, -1.0}) {
+      auto settings = Turned(lamps, from.settings, dials[i], sign * step);
+      if (!settings) continue;
+      if (auto found = better(settings)) return found;
+      tried.emplace_back(i, *std::move(settings));
+    }
+  }
+  const Xy kept = SumOf(from.settings).xy;
+  for (const auto& [turned, settings] : tried) {
+    for (std::size_t i = 0; i < dials.size(); ++i) {
+      if (i == turned) continue;
+      if (auto found = better(TurnedBack(lamps, settings, dials[i], kept))) return found;
+    }
+  }
+  return std::nullopt;
+}
+
+// From a sixteenth of the dials' ranges, halved where nothing helps.
 Found Descend(const Lamps& lamps, Found from, const Cost& cost) {
   double step = 0.0625;
   int moves = 0;
   for (int halvings = 0; halvings < kHalvings;) {
-    bool moved = false;
-    for (std::size_t i = 0; i < lamps.size(); ++i) {
-      for (const auto& axis : lamps[i]->AxesAt(from.settings[i].state)) {
-        for (const double sign : {1.0, -1.0}) {
-          FixtureState state = from.settings[i].state;
-          double& number = state[axis.control].number;
-          number =
-              std::clamp(number + sign * step * (axis.most - axis.least), axis.least, axis.most);
-          auto one = lamps[i]->At(state);
-          if (!one) continue;
-          Settings settings = from.settings;
-          settings[i] = *std::move(one);
-          const double value = cost(SumOf(settings));
-          if (!(value < from.cost - kLeastCostGain)) continue;
-          from = {std::move(settings), value};
-          moved = true;
-          break;
-        }
-      }
-    }
-    if (moved && ++moves < kMostMoves) continue;
+    auto found = Bettered(lamps, from, step, cost);
+    if (found) from = *std::move(found);
+    if (found && ++moves < kMostMoves) continue;
     step /= 2.0;
     ++halvings;
   }
