@@ -38,11 +38,13 @@ Total TotalOf(const PredictedPoint& point, double ambient_lx) {
 }
 
 // Unsure as a lamp's intensity is, by a factor, until it may be none.
+Uncertain LuxOf(double lux, double u95) {
+  if (!(u95 < lux)) return {lux, u95, 0.0, lux + u95};
+  const Uncertain by_factor = UncertainFromLog(std::log(lux), std::asinh(u95 / lux) / kZ95);
+  return {lux, u95, by_factor.low, by_factor.high};
+}
 std::string LuxText(double lux, double u95) {
-  if (!(u95 < lux)) {
-    return u95 > 0.0 ? ValueAndInterval(Uncertain{lux, u95, 0.0, lux + u95}, "lx") : "0 lx";
-  }
-  return ValueAndInterval(UncertainFromLog(std::log(lux), std::asinh(u95 / lux) / kZ95), "lx");
+  return lux > 0.0 || u95 > 0.0 ? ValueAndInterval(LuxOf(lux, u95), "lx") : "0 lx";
 }
 
 // In the room its lamps were measured in: every lamp's part must be known there.
@@ -150,9 +152,7 @@ std::string PlaneText(const Simulated& s) {
   return out + "\n" + TextTable({"target", "asked", "found", "verdict"}, rows);
 }
 
-Node ToJson(double lux, double u95) { return {{"value", lux}, {"u95", u95}}; }
-
-Node RoomNode(const std::optional<Uncertain>& u) {
+Node LuxNode(const std::optional<Uncertain>& u) {
   if (!u) return {};
   return {{"value", u->value}, {"u95", u->u95}, {"low95", u->low}, {"high95", u->high}};
 }
@@ -164,15 +164,15 @@ Node PointNode(const Simulated& s, const PredictedPoint& point) {
     const LampLux& part = point.parts[k];
     shares.items.push_back(
         {{"name", s.lamps[k].name},
-         {"illuminance_lx", ToJson(part.direct_lx + part.bounce_lx, part.u95_lx)},
+         {"illuminance_lx", LuxNode(LuxOf(part.direct_lx + part.bounce_lx, part.u95_lx))},
          {"direct_lx", part.direct_lx},
          {"bounce_lx", part.bounce_lx},
-         {"in_room_lx", RoomNode(k < point.in_room.size() ? point.in_room[k] : std::nullopt)}});
+         {"in_room_lx", LuxNode(k < point.in_room.size() ? point.in_room[k] : std::nullopt)}});
   }
   return {{"position_m", point.at.position_m},
           {"normal", point.at.normal},
-          {"illuminance_lx", ToJson(total.lux, total.u95)},
-          {"in_room_lx", RoomNode(RoomTotal(point, s.ambient_lx))},
+          {"illuminance_lx", LuxNode(LuxOf(total.lux, total.u95))},
+          {"in_room_lx", LuxNode(RoomTotal(point, s.ambient_lx))},
           {"ambient_lx", s.ambient_lx > 0.0 ? Node(s.ambient_lx) : Node()},
           {"lights", shares}};
 }

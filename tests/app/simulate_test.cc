@@ -469,6 +469,31 @@ TEST(SimulateCommand, AMeterBehindTheLampStillFacesIt) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(double(normal[i]), Unit(aim)[i], 1e-5);
 }
 
+// Unsure by a factor, as the lamp is: E low = E exp(-asinh(u/E)) = sqrt(E^2 + u^2) - u, high = low
+// + 2 u; and from none where u is not below E.
+TEST(SimulateCommand, APointsJsonHasTheEndsOfItsInterval) {
+  const TempDir folder;
+  const auto at_2_m = [&](double u95_cd) {
+    json light = Light("b", "point", 100.0, {0, 0, 2});
+    light["intensity_cd"]["u95"] = u95_cd;
+    const std::string file = folder.Write("l.json", LightFile({light}));
+    return LightcalJson("simulate", {file, "--at", "0,0,0"})["points"][0];
+  };
+  for (const double share : {0.02, 0.4, 0.9}) {
+    const json point = at_2_m(100.0 * share);
+    for (const json& lux : {point["illuminance_lx"], point["lights"][0]["illuminance_lx"]}) {
+      const double e = lux["value"], u = lux["u95"];
+      EXPECT_NEAR(e, 25.0, 1e-6);
+      EXPECT_NEAR(u, 25.0 * share, 0.02 * 25.0 * share);
+      EXPECT_NEAR(lux["low95"].get<double>(), std::hypot(e, u) - u, 1e-9);
+      EXPECT_NEAR(lux["high95"].get<double>(), std::hypot(e, u) + u, 1e-9);
+    }
+  }
+  const json wide = at_2_m(150.0)["illuminance_lx"];
+  EXPECT_EQ(wide["low95"], 0.0);
+  EXPECT_NEAR(wide["high95"].get<double>(), 25.0 + wide["u95"].get<double>(), 1e-9);
+}
+
 TEST(SimulateCommand, SeveralLightsAddUp) {
   const TempDir folder;
   const std::vector<Kind> kinds = Kinds();
