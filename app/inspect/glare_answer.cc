@@ -138,6 +138,8 @@ records::Node GlareNode(const GlareAnswer& answer) {
           {"task_nits", glare.task},
           {"dgp", IntervalNode(glare.dgp)},
           {"ugr", IntervalNode(glare.ugr)},
+          {"ugr_threshold_nits", glare.ugr_threshold},
+          {"brightest_nits", glare.brightest},
           {"dgi", IntervalNode(glare.dgi)},
           {"cgi", IntervalNode(glare.cgi)},
           {"scale_u95_relative", answer.scale_u95},
@@ -167,6 +169,14 @@ std::string GlareTable(const GlareAnswer& answer) {
   out += RoundedText(glare.threshold.value(), 4) + " cd/m²; cd/m² are taken as sure to ± " +
          PercentText(answer.scale_u95) +
          (answer.scale_source == "assumed" ? " (nobody says: --scale-u95)\n" : "\n");
+  if (glare.ugr_threshold) {
+    out += "UGR is by what is above " + RoundedText(glare.ugr_threshold->value(), 4) +
+           " cd/m², 5 times the mean (-b 5 names the sources)\n";
+  } else if (glare.brightest) {
+    out += "no UGR: nothing is above 5 times the mean (" + RoundedText(glare.mean.value(), 4) +
+           " cd/m²) either; the brightest is " + RoundedText(glare.brightest->value(), 4) +
+           " cd/m²: -b says from where on it counts\n";
+  }
   if (glare.sources.empty()) return out;
   rows.clear();
   for (const FoundGlareSource& found : glare.sources) {
@@ -200,14 +210,13 @@ std::string GlareSvg(const InspectedPicture& inspected, const GlareAnswer& answe
   for (const FoundGlareSource& found : glare.sources) {
     if (++number > static_cast<int>(kMostRows)) break;
     const bool left = found.at[0] > 0.7 * width;
-    svg += GlareLabel(
-        found.at[0] + (left ? -letter / 2.0 : letter / 2.0),
-        std::clamp(found.at[1] + letter / 3.0, letter, height - letter / 3.0), letter,
-        number > kNamedSources
-            ? std::to_string(number)
-            : std::to_string(number) + ": " + RoundedText(found.source.luminance.value(), 2) +
-                  " cd/m²",
-        left);
+    svg += GlareLabel(found.at[0] + (left ? -letter / 2.0 : letter / 2.0),
+                      std::clamp(found.at[1] + letter / 3.0, letter, height - letter / 3.0), letter,
+                      number > kNamedSources
+                          ? std::to_string(number)
+                          : std::to_string(number) + ": " +
+                                RoundedText(found.source.luminance.value(), 2) + " cd/m²",
+                      left);
   }
   svg += GlareLabel(
       letter / 2.0, 1.2 * letter, letter,

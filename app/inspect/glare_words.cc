@@ -81,7 +81,7 @@ void AddGlareOptions(CLI::App& parser, GlareWords& words) {
                   "Glare at the eye: Ev, sources, DGP, UGR, DGI, CGI (evalglare 2.10's defaults)");
   parser.add_option("-b,--glare-threshold", words.threshold,
                     "sources are brighter: cd/m², or up to 100 times the mean (of the task) "
-                    "[2000cd/m2; 5 with --task]");
+                    "[2000cd/m2; 5 with --task, and for UGR where nothing is above]");
   parser.add_option("-r,--glare-radius", words.radius,
                     "sources nearer than half of it are one: radians [0.2]");
   parser.add_flag("-y", words.peaks_too, "as of evalglare; what -Y does without it");

@@ -154,6 +154,53 @@ TEST(GlareCommand, OptionsOfEvalglareMeanTheSame) {
   EXPECT_LT(GlareOf(lobby, {"-r", "1"})["sources"].size(), GlareOf(lobby)["sources"].size());
 }
 
+// UGR of a disk of half angle a ahead, over 100 cd/m^2: w = 2 pi (1 - cos a), L_b = 100 cos^2 a.
+double UgrOfDisk(double half_deg, double nits) {
+  constexpr double pi = std::numbers::pi;
+  const double cosine = std::cos(half_deg * pi / 180.0);
+  const double background = 100.0 * cosine * cosine;
+  return 8.0 * std::log10(0.25 / background * nits * nits * 2.0 * pi * (1.0 - cosine));
+}
+
+// An office's luminaire is below 2000 cd/m^2: UGR is by 5 times the mean, and DGP stays.
+TEST(GlareCommand, WhatIsBelowTheThresholdOfDaylightStillHasItsUgr) {
+  const TempDir dir;
+  constexpr double kHalf = 6.0, pi = std::numbers::pi;
+  const double part = 1.0 - std::cos(kHalf * pi / 180.0);  // of the half sphere
+  // 600 cd/m^2 is 5.8 times the mean at any scale of the picture: the interval is 8 log10(1 -+ .2).
+  for (const double nits : {600.0, 1900.0}) {
+    const std::string disk = DiskPicture(dir, kHalf, static_cast<float>(nits), 600);
+    const json glare = GlareOf(disk, {"--scale-u95", nits < 1000.0 ? "20%" : "2%"});
+    const double scale = nits < 1000.0 ? 0.2 : 0.02;
+    ASSERT_TRUE(glare.contains("ugr")) << nits;
+    const double ugr = glare["ugr"]["value"].get<double>();
+    EXPECT_NEAR(ugr, UgrOfDisk(kHalf, nits), 0.03);
+    EXPECT_NEAR(glare["ugr"]["low95"].get<double>() - ugr, 8.0 * std::log10(1.0 - scale), 1e-3);
+    EXPECT_NEAR(glare["ugr"]["high95"].get<double>() - ugr, 8.0 * std::log10(1.0 + scale), 1e-3);
+    const double mean = 100.0 + (nits - 100.0) * part;
+    EXPECT_NEAR(glare["ugr_threshold_nits"].get<double>() / (5.0 * mean), 1.0, 2e-3);
+    EXPECT_EQ(glare["threshold_nits"], 2000.0);
+    EXPECT_TRUE(glare["sources"].empty());
+    EXPECT_FALSE(glare.contains("dgi") || glare.contains("cgi") ||
+                 glare.contains("brightest_nits"));
+    const json none = GlareOf(disk, {"-b", "2000", "--scale-u95", "2%"});
+    EXPECT_FALSE(none.contains("ugr") || none.contains("brightest_nits")) << "as was asked";
+    EXPECT_EQ(glare["dgp"]["value"], none["dgp"]["value"]);
+  }
+  EXPECT_FALSE(GlareOf(DiskPicture(dir, kHalf, 8000.0F, 300)).contains("ugr_threshold_nits"));
+  const std::string even = DiskPicture(dir, kHalf, 300.0F, 300);
+  EXPECT_EQ(GlareOf(even)["brightest_nits"], 300.0);
+  EXPECT_FALSE(GlareOf(even).contains("ugr"));
+  const auto told = [](const std::string& file) {
+    return RunLightcal({"inspect", file, "--glare", "--projection", "equidistant", "--fov", "180"})
+        .out;
+  };
+  EXPECT_THAT(told(even), HasSubstr("the brightest is 300.0 cd/m²: -b"));
+  const std::string office = told(DiskPicture(dir, kHalf, 1500.0F, 300));
+  EXPECT_THAT(office, HasSubstr("unified glare rating"));
+  EXPECT_THAT(office, HasSubstr("cd/m², 5 times the mean"));
+}
+
 // evalglare's -i: Ev from a meter, sources and E_d from the picture, L_b = (E_v - E_d)/pi.
 TEST(GlareCommand, AStatedIlluminanceTakesThePlaceOfThePictures) {
   const TempDir dir;

@@ -16,7 +16,7 @@ namespace lightcal {
 namespace {
 
 constexpr double kLeastLuminance = 100.0;  // thresholds up to here are multiples
-constexpr double kDefaultThreshold = 2000.0, kDefaultOverTask = 5.0;
+constexpr double kDefaultThreshold = 2000.0, kDefaultOverMean = 5.0;
 constexpr double kHalfSphereSlack = 1e-6;
 
 // The hemisphere in front, a pixel: its solid angle and that times the cosine; 0 behind.
@@ -51,7 +51,7 @@ FrontAngles AnglesInFront(const PixelSolidAngles& angles) {
 }
 
 struct Seen {
-  double vertical = 0.0, solid_angle = 0.0, sum = 0.0;  // sum of L dOmega
+  double vertical = 0.0, solid_angle = 0.0, sum = 0.0, max = 0.0;  // sum of L dOmega
 };
 
 Seen LightOf(View2d<const float> nits, const FrontAngles& front, const Region& region) {
@@ -64,6 +64,7 @@ Seen LightOf(View2d<const float> nits, const FrontAngles& front, const Region& r
       seen.vertical += l * front.cosine[row + x];
       seen.solid_angle += front.plain[row + x];
       seen.sum += l * front.plain[row + x];
+      if (front.plain[row + x] > 0.0F) seen.max = std::max(seen.max, l);
     }
   }
   return seen;
@@ -87,23 +88,27 @@ Result<void> CheckGlareView(View2d<const float> nits, const PixelSolidAngles& an
 class GlareAnalysis {
  public:
   GlareAnalysis(View2d<const float> nits, const PixelSolidAngles& angles,
-                const GlareSettings& settings, Nits threshold)
+                const GlareSettings& settings)
       : nits_(nits),
         angles_(angles),
         settings_(settings),
-        threshold_(threshold),
         front_(AnglesInFront(angles)),
         seen_(LightOf(nits, front_, {0, 0, nits.width(), nits.height()})) {}
 
   [[nodiscard]] const Seen& seen() const { return seen_; }
   [[nodiscard]] const FrontAngles& front() const { return front_; }
 
-  void SetThreshold(Nits threshold) { threshold_ = threshold; }
+  // of_mean: it moves with the picture's scale.
+  void SetThreshold(Nits threshold, bool of_mean) {
+    threshold_ = threshold;
+    of_mean_ = of_mean;
+  }
 
   // With all luminances `scale` times as high.
   [[nodiscard]] PictureGlare At(double scale) const {
     PictureGlare glare;
-    glare.source_of = GroupPixels(Above(threshold_.value() / scale, false), angles_, Reach());
+    const double limit = threshold_.value() / (of_mean_ ? 1.0 : scale);
+    glare.source_of = GroupPixels(Above(limit, false), angles_, Reach());
     if (settings_.peak) TakePeaks(settings_.peak->value() / scale, glare.source_of);
     glare.sources = SourcesOf(glare.source_of, scale);
     glare.vertical_of_picture = Lux(seen_.vertical * scale);
@@ -205,6 +210,7 @@ class GlareAnalysis {
   const PixelSolidAngles& angles_;
   const GlareSettings& settings_;
   Nits threshold_;
+  bool of_mean_ = false;
   FrontAngles front_;
   Seen seen_;
 };
@@ -332,6 +338,18 @@ void FillIntervals(const GlareAnalysis& analysis, const GlareSettings& settings,
   }
 }
 
+void RateOverMean(GlareAnalysis& analysis, const GlareSettings& settings, View2d<const float> sigma,
+                  PictureGlare& glare) {
+  if (!glare.sources.empty() || settings.threshold || settings.task) return;
+  const Nits threshold(kDefaultOverMean * glare.mean.value());
+  analysis.SetThreshold(threshold, true);
+  PictureGlare over_mean = analysis.At(1.0);
+  FillIntervals(analysis, settings, sigma, over_mean);
+  glare.ugr = over_mean.ugr;
+  if (glare.ugr) glare.ugr_threshold = threshold;
+  if (over_mean.sources.empty()) glare.brightest = Nits(analysis.seen().max);
+}
+
 }  // namespace
 
 Result<PictureGlare> MeasureGlare(View2d<const float> nits, const PixelSolidAngles& angles,
@@ -340,12 +358,7 @@ Result<PictureGlare> MeasureGlare(View2d<const float> nits, const PixelSolidAngl
   if (!sigma.empty() && (sigma.width() != nits.width() || sigma.height() != nits.height())) {
     return Refused("bad_view", "sigma", "the picture and its sigma differ in size");
   }
-  if (settings.task) {
-    if (auto ok = CheckRegion(*settings.task, nits.width(), nits.height()); !ok) {
-      return Propagate(std::move(ok));
-    }
-  }
-  GlareAnalysis analysis(nits, angles, settings, Nits(0.0));
+  GlareAnalysis analysis(nits, angles, settings);
   const Seen& seen = analysis.seen();
   if (!(seen.vertical > 0.0)) {
     return Refused("no_light", "illuminance", "no light reaches the eye in this picture");
@@ -353,15 +366,18 @@ Result<PictureGlare> MeasureGlare(View2d<const float> nits, const PixelSolidAngl
   const double mean = seen.sum / seen.solid_angle;
   std::optional<Nits> task;
   if (settings.task) {
+    if (auto ok = CheckRegion(*settings.task, nits.width(), nits.height()); !ok) {
+      return Propagate(std::move(ok));
+    }
     const Seen part = LightOf(nits, analysis.front(), *settings.task);
     if (!(part.sum > 0.0)) {
       return Refused("bad_region", "glare.task", "the task lies outside the view, or is black");
     }
     task = Nits(part.sum / part.solid_angle);
   }
-  double threshold = settings.threshold.value_or(task ? kDefaultOverTask : kDefaultThreshold);
+  double threshold = settings.threshold.value_or(task ? kDefaultOverMean : kDefaultThreshold);
   if (threshold <= kLeastLuminance) threshold *= task ? task->value() : mean;
-  analysis.SetThreshold(Nits(threshold));
+  analysis.SetThreshold(Nits(threshold), false);
   PictureGlare glare = analysis.At(1.0);
   if (settings.vertical && !(*settings.vertical > glare.light.direct)) {
     return Refused("bad_vertical", "glare.vertical",
@@ -376,6 +392,7 @@ Result<PictureGlare> MeasureGlare(View2d<const float> nits, const PixelSolidAngl
   glare.task = task;
   glare.background = glare.light.background();
   FillIntervals(analysis, settings, sigma, glare);
+  RateOverMean(analysis, settings, sigma, glare);
   return glare;
 }
 

@@ -44,11 +44,15 @@ struct FoundGlareSource {
 struct PictureGlare {
   GlareLight light;
   Lux vertical_of_picture;  // E_v as the picture has it
-  Nits background, mean;  // of the view, by solid angle
-  Nits threshold;         // in use
+  Nits background, mean;    // of the view, by solid angle
+  Nits threshold;           // in use
   std::optional<Nits> task;
   Uncertain vertical, dgp;  // 95 %, low and high set
   std::optional<Uncertain> ugr, dgi, cgi;
+  // Where nothing is above the default threshold and there is no task: 5 times the mean is tried
+  // for UGR alone (of electric light indoors): its threshold where something is above that, the
+  // brightest that the eye sees where nothing is.
+  std::optional<Nits> ugr_threshold, brightest;
   std::vector<FoundGlareSource> sources;  // those that matter most to DGP first
   std::vector<int> source_of;             // a pixel: 1 + the source it belongs to; 0 = none
 };
