@@ -90,7 +90,7 @@ bool StatesSigma(const NewSession& session) {
 std::string MeterText(const NewSession& session) {
   if (!StatesSigma(session)) return "";
   return "[[meter]]\n" + TomlLine("name", TomlText(kTypedMeterName), "") +
-         TomlLine("sigma_relative", ShortestText(session.meter_sigma_relative),
+         TomlLine("sigma_relative", RoundedText(session.meter_sigma_relative, 4),
                   "1 sigma, alike in all it reads: half of the accuracy on its data sheet") +
          "\n";
 }

@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(
                         {"size_m = [5, 4, 2.6]", "reflectance = 0.8", "sigma_relative = 0.015"}},
                     KindCase{"point",
                              {"--meter", "line:!echo 5", "--accuracy", "3%"},
-                             {"sigma_relative = 0.015", "--meter my_meter --device"}}),
+                             {"sigma_relative = 0.01531 ", "--meter my_meter --device"}}),
     [](const auto& kind_case) {
       return std::string(kind_case.param.kind) + std::to_string(kind_case.index);
     });
