@@ -49,7 +49,9 @@ Result<void> SetMinutes(const std::string& part, MeasuringMinutes& minutes) {
   return {};
 }
 
-std::string Minutes(double count) { return ShortestText(count) + " minutes"; }
+std::string Minutes(double count) {
+  return ShortestText(count) + (count == 1.0 ? " minute" : " minutes");
+}
 
 std::string StepMark(const LadderStep& step) { return step.meter_limits ? "the meter" : ""; }
 
@@ -73,7 +75,8 @@ std::string Sentence(const MinutesLadder& ladder) {
   const LadderStep& last = ladder.steps.back();
   std::string text = ladder.light + ": ";
   text += ladder.u95_relative ? "now " + Now(ladder) + "; " : "";
-  text += Minutes(first.total_minutes) + " (" + first.say + ") leave " + LeftAfter(first.reading);
+  text += Minutes(first.total_minutes) + " (" + first.say + ")" +
+          (first.total_minutes == 1.0 ? " leaves " : " leave ") + LeftAfter(first.reading);
   if (&first != &last) {
     text += ", " + Minutes(last.total_minutes) + " " + LeftAfter(last.reading);
   }

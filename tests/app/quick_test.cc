@@ -252,6 +252,9 @@ TEST(QuickPlan, FromReadingsItDrawsAccuracyAgainstMinutes) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("as it is"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("light: now ± "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("; 1 minute (read at 0.500 m, facing the lamp) leaves ± "),
+            std::string::npos)
+      << result.out;
   EXPECT_NE(ReadFile(svg).find("minutes of measuring"), std::string::npos);
 }
 
