@@ -53,12 +53,15 @@ double MeanLux(const PlacedLamp& lamp, const SurfacePoint& middle, const Vec3& a
   return sum;
 }
 
-// A patch as large as its distance acts as a disk: r^2 + A/pi instead of r^2.
-double DiskLuxPerCandela(const RectSource& patch, const Receiver<double>& at) {
-  const double toward = -Dot(at.normal, at.position);
-  if (!(toward > 0.0) || !(at.position[2] > 0.0)) return 0.0;
+// As a disk: r^2 + A/pi instead of r^2. Nearer than four of its sides a patch is the rectangle it
+// is: of a wall beside the meter a disk is up to four times too dim.
+double RoughLuxPerCandela(const RectSource& patch, const Receiver<double>& at) {
+  constexpr double kNearSides = 4.0;
   const double d2 = Dot(at.position, at.position);
   const double area = 4.0 * patch.half_width * patch.half_height;
+  if (d2 < kNearSides * kNearSides * area) return LuxPerCandela(patch, at, kCoarseTolerance);
+  const double toward = -Dot(at.normal, at.position);
+  if (!(toward > 0.0) || !(at.position[2] > 0.0)) return 0.0;
   return toward * at.position[2] / (d2 * (d2 + area / std::numbers::pi));
 }
 
@@ -158,7 +161,7 @@ double WallLight::Sum(const SurfacePoint& at) const {
     const Receiver<double> receiver{patch.pose.frame.Of(at.position_m - patch.pose.position_m),
                                     patch.pose.frame.Of(at.normal)};
     sum +=
-        candela * (detail_ == Detail::kCoarse ? DiskLuxPerCandela(patch.source, receiver)
+        candela * (detail_ == Detail::kCoarse ? RoughLuxPerCandela(patch.source, receiver)
                                               : LuxPerCandela(patch.source, receiver, tolerance));
   }
   return sum;

@@ -18,8 +18,8 @@ class WallLight {
  public:
   // For values: 10 x 10 patches a wall, each lit at 2 x 2 Gauss points and shining as a Lambertian
   // rectangle, and the room's own for the further bounces.
-  // For bounds, at a twentieth of the price: 6 x 6, each lit at its middle and shining as a disk,
-  // as room_bounce.h has them.
+  // For bounds, at a sixth of the price: 6 x 6, each lit at its middle and shining as a disk,
+  // those about the point as rectangles.
   // The lamp must follow a distance (not IsEverywhere); outside the room it counts as just inside.
   [[nodiscard]] static WallLight Fine(const RoomBox& room, const PlacedLamp& lamp,
                                       const RoomExchange& exchange);
