@@ -312,5 +312,19 @@ TEST(GuidedSession, WithoutATerminalItAnswersFromItsInputAndEndsWithIt) {
   EXPECT_NEAR(double(answer["intensity_cd"]["value"]), 99.0, 1.0);
 }
 
+TEST(GuidedSession, WhatTheMeterCannotReachIsSaidBeforeTheFirstReading) {
+  const NoUsb machine;
+  const TempDir home;
+  const std::string session = home.path() + "/s";
+  ASSERT_EQ(RunLightcal({"new", session, "--yes", "--kind", "point", "--accuracy", "3%"}).exit_code,
+            0);
+  const auto told = [&](const char* until) {
+    return RunLightcal({"read", "-s", session, "--guided", "--typed", "--until", until}, "q\n").err;
+  };
+  EXPECT_THAT(told("3%"), HasSubstr("own accuracy leaves ± 3.0 % however often it reads"));
+  EXPECT_THAT(told("2%"), HasSubstr("own accuracy leaves ± 3.0 %"));
+  EXPECT_THAT(told("4%"), Not(HasSubstr("however often it reads")));
+}
+
 }  // namespace
 }  // namespace lightcal::test

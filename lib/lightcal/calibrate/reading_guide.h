@@ -48,6 +48,8 @@ class ReadingGuide {
   // What the readings so far say; absent before the first, and where they say nothing.
   [[nodiscard]] const std::optional<FittedLight>& light() const { return fitted_; }
   [[nodiscard]] std::optional<double> u95_relative() const;
+  // What the meter's calibration leaves of it however often it reads; 0 where nobody says.
+  [[nodiscard]] double MeterU95Relative() const;
   // What that fit warns of.
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
   // Of the last pair: what the card left over what the meter saw without it.
