@@ -186,6 +186,8 @@ TEST(GlareCommand, WhatIsBelowTheThresholdOfDaylightStillHasItsUgr) {
     const json none = GlareOf(disk, {"-b", "2000", "--scale-u95", "2%"});
     EXPECT_FALSE(none.contains("ugr") || none.contains("brightest_nits")) << "as was asked";
     EXPECT_EQ(glare["dgp"]["value"], none["dgp"]["value"]);
+    const json typed = GlareOf(disk, {"-b", "5", "--scale-u95", nits < 1000.0 ? "20%" : "2%"});
+    EXPECT_EQ(typed["ugr"], glare["ugr"]) << "as many times the mean at any scale";
   }
   EXPECT_FALSE(GlareOf(DiskPicture(dir, kHalf, 8000.0F, 300)).contains("ugr_threshold_nits"));
   const std::string even = DiskPicture(dir, kHalf, 300.0F, 300);

@@ -376,8 +376,9 @@ Result<PictureGlare> MeasureGlare(View2d<const float> nits, const PixelSolidAngl
     task = Nits(part.sum / part.solid_angle);
   }
   double threshold = settings.threshold.value_or(task ? kDefaultOverMean : kDefaultThreshold);
-  if (threshold <= kLeastLuminance) threshold *= task ? task->value() : mean;
-  analysis.SetThreshold(Nits(threshold), false);
+  const bool of_mean = threshold <= kLeastLuminance;
+  if (of_mean) threshold *= task ? task->value() : mean;
+  analysis.SetThreshold(Nits(threshold), of_mean);
   PictureGlare glare = analysis.At(1.0);
   if (settings.vertical && !(*settings.vertical > glare.light.direct)) {
     return Refused("bad_vertical", "glare.vertical",
