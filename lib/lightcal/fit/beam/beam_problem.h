@@ -145,7 +145,6 @@ struct BeamProblem {
   // three.
   bool Differentiate(std::size_t i, const double* p, double* residual, double* gradient) const {
     const std::size_t measured = rows.size() + sheet.size();
-    std::fill_n(gradient, kCount, 0.0);
     if (i >= measured) {
       const std::size_t last = i - measured;
       const std::size_t first = last < 2 ? 0 : last - 2;
@@ -157,7 +156,7 @@ struct BeamProblem {
     }
     const auto row = [&](const auto* at, auto* out) { return Residual(i, at, out); };
     if constexpr (kOfShape <= BeamShape::kFew) {
-      return DifferentiateBy<kCount>(row, p, kBeamCommon, 0, residual, gradient);
+      return DifferentiateByJets<BeamProblem>(row, p, residual, gradient);
     } else {
       return DifferentiateBy<kBeamCommon + BeamShape::kNodesOfAngle>(
           row, p, kBeamCommon, FirstNodeOf(i, p), residual, gradient);
@@ -180,6 +179,7 @@ struct BeamProblem {
     Jet out(0.0);
     const bool has_value = row(at.data(), &out);
     *residual = out.a;
+    std::fill_n(gradient, kCount, 0.0);
     for (int k = 0; k < kSome; ++k) gradient[known[k]] = out.v[k];
     return has_value;
   }

@@ -60,18 +60,11 @@ class Planner {
   void Skip(std::vector<PlannedReading> steps) { skip_ = std::move(steps); }
   void Tell(Progress progress) { progress_ = std::move(progress); }
 
-  // One step of angles off the axis alone.
-  Result<ReadingPlan> Angle() {
-    only_angles_ = true;
-    auto plan = Plan(1);
-    only_angles_ = false;
-    return plan;
-  }
-
-  Result<ReadingPlan> Plan(int steps) {
+  // only_angles: off the axis.
+  Result<ReadingPlan> Plan(int steps, bool only_angles = false) {
     ReadingPlan plan;
     if (auto begun = Begin(); !begun) return Propagate(std::move(begun));
-    plan.u95_relative = begun_u95_relative_;
+    plan.u95_relative = U95AsRead();
     if (now_ && plan.u95_relative) {
       plan.u95_stops = fit::StopsLeft(*now_);
       plan.beam_u95_deg = fit::BeamLeft(*now_);
@@ -79,7 +72,7 @@ class Planner {
     plan.span = fit::DistanceSpan(session_);
     for (int i = 0; i < steps; ++i) {
       BeginStep(i, steps);
-      std::vector<PlannedReading> ranked = Rank();
+      std::vector<PlannedReading> ranked = Rank(only_angles);
       if (ranked.empty()) break;
       if (i == 0) plan.candidates = ranked;
       plan.steps.push_back(ranked.front());
@@ -92,7 +85,7 @@ class Planner {
     MinutesLadder ladder;
     ladder.light = Light().name;
     if (auto begun = Begin(); !begun) return Propagate(std::move(begun));
-    ladder.u95_relative = begun_u95_relative_;
+    ladder.u95_relative = U95AsRead();
     ladder.meter_u95_relative = LeftBy(fit::SharedCalibrationOf(session_, like_)).relative;
     std::optional<Left> left;
     if (ladder.u95_relative) {
@@ -129,17 +122,23 @@ class Planner {
   // What is known before any step.
   Result<void> Begin() {
     if (now_) return {};
-    const bool read = std::any_of(session_.readings.begin(), session_.readings.end(),
-                                  [](const SessionReading& row) { return IsLit(row.reading); });
     auto fitted = FitSession(session_, settings_);
     if (fitted && !fitted->lights.lights.empty()) {
       now_ = std::move(fitted->lights.lights.front());
-      if (read) begun_u95_relative_ = RelativeUncertainty(*now_);
       for (const SessionReading& row : session_.readings) StandAt(row.reading);
-    } else if (read) {
+    } else if (IsRead()) {
       return Propagate(std::move(fitted));
     }
     return {};
+  }
+
+  [[nodiscard]] bool IsRead() const {
+    return std::ranges::any_of(session_.readings,
+                               [](const SessionReading& row) { return IsLit(row.reading); });
+  }
+  // None before any reading.
+  [[nodiscard]] std::optional<double> U95AsRead() const {
+    return now_ && IsRead() ? RelativeUncertainty(*now_) : std::nullopt;
   }
 
   // The meter stands where it read last.
@@ -159,20 +158,20 @@ class Planner {
                                        : of_relative;
   }
 
-  [[nodiscard]] std::vector<PlannedReading> Candidates() const {
+  [[nodiscard]] std::vector<PlannedReading> Candidates(bool only_angles) const {
     std::vector<PlannedReading> out =
         fit::ReadingCandidates(session_, now_ ? &*now_ : nullptr, reach_m_);
     std::erase_if(out, [&](const PlannedReading& candidate) {
       const bool angle = candidate.action == PlannedAction::kRead && candidate.off_axis;
-      return (only_angles_ && !angle) || IsSkipped(candidate);
+      return (only_angles && !angle) || IsSkipped(candidate);
     });
     return out;
   }
 
   // Those that would give an answer, in the order they are listed.
-  [[nodiscard]] std::vector<PlannedReading> Judged() {
+  [[nodiscard]] std::vector<PlannedReading> Judged(bool only_angles) {
     std::vector<PlannedReading> out;
-    const std::vector<PlannedReading> candidates = Candidates();
+    const std::vector<PlannedReading> candidates = Candidates(only_angles);
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       auto trial = Tried(candidates[i]);
       if (trial) trial = Settled(*trial);
@@ -248,7 +247,7 @@ class Planner {
       return LadderStep{std::move(ranked.front()), {}, took};
     }
     std::map<double, std::vector<PlannedReading>> by_minutes;
-    std::vector<PlannedReading> all = Candidates();
+    std::vector<PlannedReading> all = Candidates(false);
     const std::size_t count = all.size();
     for (PlannedReading& one : all) {
       by_minutes[MinutesOf(one, minutes)].push_back(std::move(one));
@@ -300,8 +299,8 @@ class Planner {
   }
 
   // Best first; those as good as the best keep their order.
-  [[nodiscard]] std::vector<PlannedReading> Rank() {
-    std::vector<PlannedReading> out = Judged();
+  [[nodiscard]] std::vector<PlannedReading> Rank(bool only_angles = false) {
+    std::vector<PlannedReading> out = Judged(only_angles);
     if (out.empty()) return out;
     const double least = OpenAfter(*std::ranges::min_element(out, {}, OpenAfter));
     const auto as_good = std::find_if(out.begin(), out.end(), [least](const PlannedReading& r) {
@@ -323,7 +322,6 @@ class Planner {
   Session session_;
   const FitSettings& settings_;
   double reach_m_;
-  bool only_angles_ = false;
   Reading like_;
   double display_step_lx_;
   double last_digit_lx_;
@@ -331,9 +329,8 @@ class Planner {
   std::vector<PlannedReading> skip_;
   Progress progress_, of_step_;
   std::optional<FittedLight> now_;
-  std::optional<double> begun_u95_relative_;  // before any step
-  Outcomes tried_, settled_;                  // of this step
-  std::optional<PlannedReading> stands_;      // where the meter does
+  Outcomes tried_, settled_;              // of this step
+  std::optional<PlannedReading> stands_;  // where the meter does
 };
 
 }  // namespace
@@ -364,7 +361,7 @@ Result<BeamPlan> PlanBeam(const Session& session, const std::string& light,
   auto alone = fit::AloneIn(session, light);
   if (!alone) return Propagate(std::move(alone));
   Planner planner(*std::move(alone), settings, wishes.reach_m);
-  auto angle = planner.Angle();
+  auto angle = planner.Plan(1, true);
   if (!angle) return Propagate(std::move(angle));
   planner.Skip(wishes.skip);
   planner.Tell(wishes.progress);
