@@ -11,6 +11,7 @@
 #include "calibration_options.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/light/beam_ensemble.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal_devices/meters/find_meters.h"
 #include "typed_reading.h"
@@ -108,8 +109,6 @@ std::string TargetMenu() {
   return menu + line + "\n";
 }
 
-constexpr double kWidestBeam_deg = 170.0;
-
 // "9W 806lm 2900K 36deg", in any order.
 Result<NewSession> ParseBox(const std::string& text) {
   NewSession box;
@@ -122,7 +121,7 @@ Result<NewSession> ParseBox(const std::string& text) {
     const std::string unit = LowerAscii(split->unit);
     const bool positive = split->number > 0.0;
     const bool degrees = unit == "deg" || unit == "°";
-    if (degrees && !(split->number < kWidestBeam_deg)) {
+    if (degrees && !(RadiansFromDegrees(split->number) < kWidestBeam)) {
       return WrongUsage(
           "\"" + word + "\"",
           word +

@@ -9,6 +9,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/printable.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/light/beam_ensemble.h"
 #include "typed_reading.h"
 
 namespace lightcal::app {
@@ -88,7 +89,7 @@ Result<void> CheckAngles(std::optional<Radians> inner, std::optional<Radians> ou
   if (inner && *inner > *outer) {
     return WrongUsage("--inner", "exceeds --outer; both count from the axis: swap them");
   }
-  if (light.beam && !(*light.beam < RadiansFromDegrees(170.0))) {
+  if (light.beam && !(*light.beam < kWidestBeam)) {
     return WrongUsage(
         "--beam",
         "goes to below 170 degrees; a lamp that shines wider is no beam: leave it out, "

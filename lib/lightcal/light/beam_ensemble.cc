@@ -103,7 +103,7 @@ std::vector<Member> MembersOf(Radians beam, std::optional<Radians> field) {
 
 Result<void> CheckAngles(Radians beam, std::optional<Radians> field) {
   const double half = 0.5 * beam.value();
-  if (!(half > 0.0) || !(half < RadiansFromDegrees(85.0).value())) {
+  if (!(half > 0.0) || !(beam < kWidestBeam)) {
     return Refused("bad_beam", "beam_deg", "the beam angle must lie between 0 and 170 degrees");
   }
   if (!field) return {};

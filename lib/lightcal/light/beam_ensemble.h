@@ -16,13 +16,16 @@ struct BeamSolidAngles {
   Steradians most{0.0};
 };
 
+// A lamp that shines wider is no beam: its intensity is nowhere half of the middle's.
+inline constexpr Radians kWidestBeam = RadiansFromDegrees(170.0);
+
 // The beams whose intensity is half the peak at beam/2 from the axis (and, when given, a tenth at
 // field/2), beam and field being full angles as data sheets print them (IES LM-79, CIE 121).
 //   beam only: uniform cone of half angle beam/2; Gaussian; cos^n; cos^n that carries two thirds
 //     of the flux, the rest being spill outside the beam (reflector lamps reach that).
 //   beam and field: exp(-ln2 (t/tb)^p); 1/(1 + (t/tb)^q); a trapezoid, straight through both.
 // Integrated numerically over 0..90 degrees. Holds for 0 < beam < field <= 180 degrees (beam alone
-// up to 170). Refused: bad_beam.
+// below kWidestBeam). Refused: bad_beam.
 [[nodiscard]] Result<BeamSolidAngles> BeamEnsemble(Radians beam, std::optional<Radians> field);
 
 // One of those beams, to be drawn: I(theta)/I_peak, theta from the axis, nothing beyond 90 degrees;
