@@ -51,7 +51,7 @@ void PredictedLamp::FindHotSpots() {
   const Vec3& aim = lamp_.pose.frame.z;
   double to_wall = 1e300;
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = axis == 2 ? 0.0 : -0.5 * room_->size_m[axis];
+    const double low = LowEnd(room_->size_m, axis);
     for (const double wall : {low, low + room_->size_m[axis]}) {
       HotSpot foot{from, std::max(kLeastSize, std::abs(wall - from[axis]))};
       foot.position_m[axis] = wall;

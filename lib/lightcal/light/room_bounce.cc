@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "lightcal/light/beam_ensemble.h"
 #include "lightcal/photometry/spot_cone.h"
 
 namespace lightcal {
@@ -20,8 +21,7 @@ class Pattern {
     const bool flat = scene.kind == LightKind::kDisk || scene.kind == LightKind::kRect;
     if (scene.outer && !flat) {
       cone_ = SpotCone{scene.inner.value_or(Radians(0.0)), *scene.outer};
-    } else if (scene.beam && scene.beam->value() > 0.0 &&
-               scene.beam->value() < RadiansFromDegrees(170.0).value()) {
+    } else if (scene.beam && scene.beam->value() > 0.0 && *scene.beam < kWidestBeam) {
       exponent_ = std::log(0.5) / std::log(std::cos(0.5 * scene.beam->value()));
     } else if (flat) {
       exponent_ = 1.0;
@@ -60,7 +60,7 @@ class Pattern {
 
 Vec3 MovedInside(Vec3 p, const Vec3& size) {
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = axis == 2 ? 0.0 : -0.5 * size[axis];
+    const double low = LowEnd(size, axis);
     const double margin = std::min(kInside, 0.25 * size[axis]);
     p[axis] = std::clamp(p[axis], low + margin, low + size[axis] - margin);
   }
@@ -139,7 +139,7 @@ class Wall {
 double FromWall(const RoomBox& room, const Vec3& lamp, const Wall& wall) {
   const auto patches = static_cast<std::size_t>(room.bounce_patches);
   const auto edges = [&](int side) {
-    const double low = side == 2 ? 0.0 : -0.5 * room.size_m[side];
+    const double low = LowEnd(room.size_m, side);
     return Grade(room.bounce_patches, low, low + room.size_m[side], lamp[side], wall.height());
   };
   const auto u = edges(wall.u());
@@ -176,9 +176,8 @@ Bounce BounceAt(const Scene& scene, const ScenePose& pose) {
     out.first +=
         FromWall(*scene.room, lamp, Wall(pattern, lamp, receiver, axis, low + size[axis], -1.0));
   }
-  const double area = 2.0 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
   const double rho = scene.room->reflectance;
-  out.tail = rho * rho * pattern.SolidAngle() / (area * (1.0 - rho));
+  out.tail = rho * rho * pattern.SolidAngle() / (AreaOfWalls_m2(size) * (1.0 - rho));
   return out;
 }
 

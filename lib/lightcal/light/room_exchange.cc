@@ -11,7 +11,7 @@ namespace lightcal {
 namespace {
 
 constexpr double kPatches = 216.0;
-constexpr int kFewest = 4, kMost = 32;  // along a side
+constexpr double kFewest = 4.0, kMost = 32.0;  // along a side
 constexpr double kShareTolerance = 2e-2;
 
 // Edges of `count` patches from `low` on, a fifth as wide at the ends as in the mean.
@@ -26,47 +26,22 @@ std::vector<double> Edges(double low, double length, int count) {
   return edges;
 }
 
-double AreaOf(const Vec3& size) {
-  return 2.0 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
-}
-
 }  // namespace
 
 RoomExchange::RoomExchange(const RoomBox& room) : reflectance_(room.reflectance) {
-  for (int axis = 0; axis < 3; ++axis) {
-    AddWall(room, axis, false);
-    AddWall(room, axis, true);
-  }
-  for (const WallPatch& patch : patches_) area_m2_ += patch.area_m2();
-  FindShares();
-}
-
-void RoomExchange::AddWall(const RoomBox& room, int axis, bool upper) {
-  const double side_m = std::sqrt(AreaOf(room.size_m) / kPatches);
-  const auto low = [&](int k) { return k == 2 ? 0.0 : -0.5 * room.size_m[k]; };
-  const auto edges = [&](int k) {
-    const double count = std::round(room.size_m[k] / side_m);
-    return Edges(low(k), room.size_m[k],
-                 static_cast<int>(std::clamp(count, double{kFewest}, double{kMost})));
+  const Vec3& size_m = room.size_m;
+  const double side_m = std::sqrt(AreaOfWalls_m2(size_m) / kPatches);
+  const auto edges = [&](int along) {
+    const double count = std::clamp(std::round(size_m[along] / side_m), kFewest, kMost);
+    return Edges(LowEnd(size_m, along), size_m[along], static_cast<int>(count));
   };
-  const int u = (axis + 1) % 3;
-  const int v = (axis + 2) % 3;
-  const std::vector<double> us = edges(u);
-  const std::vector<double> vs = edges(v);
-  Vec3 inward{};
-  inward[axis] = upper ? -1.0 : 1.0;
-  Vec3 along{};
-  along[u] = 1.0;
-  const SourceFrame frame = SourceFrame::Facing(inward, along);
-  for (std::size_t i = 0; i + 1 < us.size(); ++i) {
-    for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
-      WallPatch patch{{0.5 * (us[i + 1] - us[i]), 0.5 * (vs[j + 1] - vs[j])}, {{}, frame, 0.0}};
-      patch.pose.position_m[axis] = low(axis) + (upper ? room.size_m[axis] : 0.0);
-      patch.pose.position_m[u] = 0.5 * (us[i] + us[i + 1]);
-      patch.pose.position_m[v] = 0.5 * (vs[j] + vs[j + 1]);
+  for (const RoomWall& wall : kRoomWalls) {
+    for (const WallPatch& patch : PatchesOf(wall, size_m, edges(wall.u()), edges(wall.v()))) {
       patches_.push_back(patch);
+      area_m2_ += patch.area_m2();
     }
   }
+  FindShares();
 }
 
 void RoomExchange::FindShares() {
@@ -75,11 +50,8 @@ void RoomExchange::FindShares() {
   // A_i F_ij by what j casts on i's middle.
   const auto exchanged = [&](std::size_t i, std::size_t j) {
     const WallPatch& from = patches_[j];
-    const SurfacePoint at = Middle(i);
-    const Receiver<double> receiver{from.pose.frame.Of(at.position_m - from.pose.position_m),
-                                    from.pose.frame.Of(at.normal)};
     return patches_[i].area_m2() * from.area_m2() / std::numbers::pi *
-           LuxPerCandela(from.source, receiver, kShareTolerance);
+           LuxPerCandela(from.source, from.Seen(patches_[i].middle()), kShareTolerance);
   };
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < i; ++j) {

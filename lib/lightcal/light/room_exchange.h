@@ -5,17 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "lightcal/light/placed_lamp.h"
 #include "lightcal/light/scene.h"
+#include "lightcal/light/wall_patch.h"
 
 namespace lightcal {
-
-// A rectangle of a wall that shines as a Lambertian one.
-struct WallPatch {
-  RectSource source;
-  LampPose pose;
-  [[nodiscard]] double area_m2() const { return 4.0 * source.half_width * source.half_height; }
-};
 
 // About 200 patches, 4 a side at least, smaller towards the edges, where walls light each other
 // most.
@@ -27,16 +20,11 @@ class RoomExchange {
   explicit RoomExchange(const RoomBox& room);
 
   [[nodiscard]] std::span<const WallPatch> patches() const { return patches_; }
-  // Where and how patch i receives light.
-  [[nodiscard]] SurfacePoint Middle(std::size_t i) const {
-    return {patches_[i].pose.position_m, patches_[i].pose.frame.z};
-  }
   // What arrives at each patch of light thrown back once or more often, from what of it was thrown
   // back once, `once_lx`, whose mean over the room shall be `mean_lx`.                      [lx]
   [[nodiscard]] std::vector<double> Settled(std::vector<double> once_lx, double mean_lx) const;
 
  private:
-  void AddWall(const RoomBox& room, int axis, bool upper);
   void FindShares();
   [[nodiscard]] double MeanOf(const std::vector<double>& lux) const;
 

@@ -23,6 +23,15 @@ struct RoomBox {
   int bounce_patches = 6;  // along each side of each wall, where light bounces
 };
 
+// Where its low wall across an axis stands, origin under its middle.                     [m]
+[[nodiscard]] inline double LowEnd(const Vec3& size_m, int axis) {
+  return axis == 2 ? 0.0 : -0.5 * size_m[axis];
+}
+
+[[nodiscard]] inline double AreaOfWalls_m2(const Vec3& size_m) {
+  return 2.0 * (size_m[0] * size_m[1] + size_m[1] * size_m[2] + size_m[2] * size_m[0]);
+}
+
 // Whether p lies in the room, origin under its middle; 1 cm beyond is still in it: a meter on the
 // floor, a lamp at the wall.
 [[nodiscard]] inline bool IsInRoom(const Vec3& p, const Vec3& size_m) {

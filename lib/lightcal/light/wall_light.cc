@@ -18,12 +18,10 @@ constexpr int kFineSide = 10, kCoarseSide = 6;
 constexpr double kFineTolerance = 3e-3, kCoarseTolerance = 5e-2;
 constexpr double kFurtherTolerance = 1e-2;  // of patches that are about alike
 
-double Low(const RoomBox& room, int axis) { return axis == 2 ? 0.0 : -0.5 * room.size_m[axis]; }
-
 Vec3 Clamped(Vec3 p, const RoomBox& room, double margin) {
   for (int axis = 0; axis < 3; ++axis) {
     const double gap = std::min(margin, 0.25 * room.size_m[axis]);
-    const double low = Low(room, axis);
+    const double low = LowEnd(room.size_m, axis);
     p[axis] = std::clamp(p[axis], low + gap, low + room.size_m[axis] - gap);
   }
   return p;
@@ -83,53 +81,29 @@ WallLight::WallLight(const RoomBox& room, const PlacedLamp& lamp, Detail detail)
   PlacedLamp inside = lamp;
   inside.pose.position_m = Clamped(lamp.pose.position_m, room, kLampInside);
   patches_.reserve(static_cast<std::size_t>(6 * side * side));
-  for (int axis = 0; axis < 3; ++axis) {
-    AddWall(inside, axis, false, side);
-    AddWall(inside, axis, true, side);
-  }
-  const Vec3& size = room.size_m;
-  const double area = 2.0 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
+  for (const RoomWall& wall : kRoomWalls) AddWall(inside, wall, side);
   const double rho = room.reflectance;
   const double solid_angle = SolidAngleOf(lamp.source);
-  tail_ = rho * rho * lamp.strength * solid_angle / (area * (1.0 - rho));
+  tail_ = rho * rho * lamp.strength * solid_angle / (AreaOfWalls_m2(room.size_m) * (1.0 - rho));
   even_ = solid_angle > 4.0 * std::numbers::pi * (1.0 - 1e-9);
 }
 
-void WallLight::AddWall(const PlacedLamp& lamp, int axis, bool upper, int side) {
-  const double at = Low(room_, axis) + (upper ? room_.size_m[axis] : 0.0);
-  const int u = (axis + 1) % 3;
-  const int v = (axis + 2) % 3;
+void WallLight::AddWall(const PlacedLamp& lamp, const RoomWall& wall, int side) {
   const Vec3& from = lamp.pose.position_m;
-  const double height = std::abs(from[axis] - at);
+  const double height = std::abs(from[wall.axis] - wall.at_m(room_.size_m));
   const auto edges = [&](int along) {
-    const double low = Low(room_, along);
+    const double low = LowEnd(room_.size_m, along);
     return Grade(low, low + room_.size_m[along], from[along], height, side);
   };
-  const std::vector<double> us = edges(u);
-  const std::vector<double> vs = edges(v);
-  SurfacePoint wall;
-  wall.normal = {};
-  wall.normal[axis] = upper ? -1.0 : 1.0;
-  wall.position_m[axis] = at;
-  Vec3 along{};
-  along[u] = 1.0;
-  Vec3 across{};
-  across[v] = 1.0;
-  const SourceFrame frame = SourceFrame::Facing(wall.normal, along);
-  for (int i = 0; i < side; ++i) {
-    for (int j = 0; j < side; ++j) {
-      const double half_u = 0.5 * (us[i + 1] - us[i]);
-      const double half_v = 0.5 * (vs[j + 1] - vs[j]);
-      WallPatch patch{{half_u, half_v}, {{}, frame, 0.0}};
-      patch.pose.position_m[axis] = at;
-      patch.pose.position_m[u] = 0.5 * (us[i + 1] + us[i]);
-      patch.pose.position_m[v] = 0.5 * (vs[j + 1] + vs[j]);
-      wall.position_m = patch.pose.position_m;
-      const double lux = detail_ == Detail::kCoarse
-                             ? LuxOf(lamp, wall, {false, kCoarseTolerance})
-                             : MeanLux(lamp, wall, along * half_u, across * half_v);
-      Shine(patch, lux, kFineTolerance);
-    }
+  for (const WallPatch& patch : PatchesOf(wall, room_.size_m, edges(wall.u()), edges(wall.v()))) {
+    const SurfacePoint middle = patch.middle();
+    Vec3 along{};
+    along[wall.u()] = patch.source.half_width;
+    Vec3 across{};
+    across[wall.v()] = patch.source.half_height;
+    const double lux = detail_ == Detail::kCoarse ? LuxOf(lamp, middle, {false, kCoarseTolerance})
+                                                  : MeanLux(lamp, middle, along, across);
+    Shine(patch, lux, kFineTolerance);
   }
 }
 
@@ -144,7 +118,7 @@ void WallLight::AddFurther(const RoomExchange& exchange) {
   if (!(rho > 0.0)) return;
   std::vector<double> once;
   for (std::size_t i = 0; i < exchange.patches().size(); ++i) {
-    once.push_back(Sum(Inside(exchange.Middle(i))));
+    once.push_back(Sum(Inside(exchange.patches()[i].middle())));
   }
   const std::vector<double> all = exchange.Settled(std::move(once), tail_ * (1.0 - rho) / rho);
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -158,8 +132,7 @@ SurfacePoint WallLight::Inside(const SurfacePoint& at) const {
 double WallLight::Sum(const SurfacePoint& at) const {
   double sum = 0.0;
   for (const auto& [patch, candela, tolerance] : patches_) {
-    const Receiver<double> receiver{patch.pose.frame.Of(at.position_m - patch.pose.position_m),
-                                    patch.pose.frame.Of(at.normal)};
+    const Receiver<double> receiver = patch.Seen(at);
     sum +=
         candela * (detail_ == Detail::kCoarse ? RoughLuxPerCandela(patch.source, receiver)
                                               : LuxPerCandela(patch.source, receiver, tolerance));

@@ -8,6 +8,7 @@
 #include "lightcal/light/placed_lamp.h"
 #include "lightcal/light/room_exchange.h"
 #include "lightcal/light/scene.h"
+#include "lightcal/light/wall_patch.h"
 
 namespace lightcal {
 
@@ -41,7 +42,7 @@ class WallLight {
   };
   WallLight(const RoomBox& room, const PlacedLamp& lamp, Detail detail);
   void Shine(const WallPatch& patch, double lux, double tolerance);
-  void AddWall(const PlacedLamp& lamp, int axis, bool upper, int side);
+  void AddWall(const PlacedLamp& lamp, const RoomWall& wall, int side);
   [[nodiscard]] SurfacePoint Inside(const SurfacePoint& at) const;
   void AddFurther(const RoomExchange& exchange);
   // Of all patches.
