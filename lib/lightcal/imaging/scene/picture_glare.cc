@@ -70,7 +70,8 @@ Seen LightOf(View2d<const float> nits, const FrontAngles& front, const Region& r
   return seen;
 }
 
-Result<void> CheckGlareView(View2d<const float> nits, const PixelSolidAngles& angles) {
+Result<void> CheckGlareView(View2d<const float> nits, const PixelSolidAngles& angles,
+                            const std::optional<Region>& task) {
   const PictureView& view = angles.view();
   if (view.width != nits.width() || view.height != nits.height()) {
     return Refused("bad_view", "projection", "picture and projection differ in size");
@@ -79,7 +80,7 @@ Result<void> CheckGlareView(View2d<const float> nits, const PixelSolidAngles& an
       view.projection == Projection::kLatLong ||
       (view.projection != Projection::kRectilinear &&
        view.field_of_view.value() >= std::numbers::pi * (1.0 - kHalfSphereSlack));
-  if (half_sphere) return {};
+  if (half_sphere) return task ? CheckRegion(*task, nits.width(), nits.height()) : Result<void>();
   return Refused("bad_view", "projection",
                  "glare needs all light that reaches the eye: a fisheye of 180 degrees or a "
                  "lat-long panorama; this view sees less");
@@ -354,7 +355,7 @@ void RateOverMean(GlareAnalysis& analysis, const GlareSettings& settings, View2d
 
 Result<PictureGlare> MeasureGlare(View2d<const float> nits, const PixelSolidAngles& angles,
                                   const GlareSettings& settings, View2d<const float> sigma) {
-  if (auto ok = CheckGlareView(nits, angles); !ok) return Propagate(std::move(ok));
+  if (auto ok = CheckGlareView(nits, angles, settings.task); !ok) return Propagate(std::move(ok));
   if (!sigma.empty() && (sigma.width() != nits.width() || sigma.height() != nits.height())) {
     return Refused("bad_view", "sigma", "the picture and its sigma differ in size");
   }
@@ -366,9 +367,6 @@ Result<PictureGlare> MeasureGlare(View2d<const float> nits, const PixelSolidAngl
   const double mean = seen.sum / seen.solid_angle;
   std::optional<Nits> task;
   if (settings.task) {
-    if (auto ok = CheckRegion(*settings.task, nits.width(), nits.height()); !ok) {
-      return Propagate(std::move(ok));
-    }
     const Seen part = LightOf(nits, analysis.front(), *settings.task);
     if (!(part.sum > 0.0)) {
       return Refused("bad_region", "glare.task", "the task lies outside the view, or is black");
