@@ -97,7 +97,7 @@ class Walk {
     const LightDescription& light = *FindLight(session, frame_.light);
     console_.Note("Lamp " + light.name + " (" + std::string(LightKindName(light.kind)) +
                   "), until it is known within " + Within(options_.until_relative) + " (95 %).");
-    const double meter = guide_->MeterU95Relative();
+    const double meter = guide_->meter_u95_relative();
     if (meter >= 0.98 * options_.until_relative) {  // all else adds to it
       console_.Note("The meter's own accuracy leaves " + Within(meter) +
                     " however often it reads: that will not be reached.");

@@ -72,13 +72,6 @@ std::optional<double> ReadingGuide::u95_relative() const {
   return fitted_ ? RelativeUncertainty(*fitted_) : std::nullopt;
 }
 
-double ReadingGuide::MeterU95Relative() const {
-  LadderWishes wishes;
-  wishes.steps = 0;
-  const auto ladder = PlanMinutes(session_, session_.lights.front().name, {}, wishes);
-  return ladder ? ladder->meter_u95_relative : 0.0;
-}
-
 const Reading* ReadingGuide::LitAtPlaceOf(const Reading& card) const {
   for (const SessionReading& row : session_.readings | std::views::reverse) {
     if (IsLit(row.reading) && SamePlace(row.reading, card)) return &row.reading;

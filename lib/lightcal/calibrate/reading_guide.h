@@ -49,7 +49,7 @@ class ReadingGuide {
   [[nodiscard]] const std::optional<FittedLight>& light() const { return fitted_; }
   [[nodiscard]] std::optional<double> u95_relative() const;
   // What the meter's calibration leaves of it however often it reads; 0 where nobody says.
-  [[nodiscard]] double MeterU95Relative() const;
+  [[nodiscard]] double meter_u95_relative() const { return MeterU95Relative(session_); }
   // What that fit warns of.
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
   // Of the last pair: what the card left over what the meter saw without it.

@@ -86,7 +86,7 @@ class Planner {
     ladder.light = Light().name;
     if (auto begun = Begin(); !begun) return Propagate(std::move(begun));
     ladder.u95_relative = U95AsRead();
-    ladder.meter_u95_relative = LeftBy(fit::SharedCalibrationOf(session_, like_)).relative;
+    ladder.meter_u95_relative = MeterU95Relative(session_);
     std::optional<Left> left;
     if (ladder.u95_relative) {
       ladder.u95_stops = fit::StopsLeft(*now_);
@@ -368,6 +368,10 @@ Result<BeamPlan> PlanBeam(const Session& session, const std::string& light,
   auto ladder = planner.Ladder(wishes);
   if (!ladder) return Propagate(std::move(ladder));
   return BeamPlan{*std::move(angle), *std::move(ladder)};
+}
+
+double MeterU95Relative(const Session& session) {
+  return LeftBy(fit::SharedCalibrationOf(session, fit::LikeTheLast(session))).relative;
 }
 
 Result<MinutesLadder> PlanMinutes(const Session& session, const std::string& light,

@@ -43,6 +43,10 @@ struct ReadingPlan {
 // Whether they ask for the same: what to do, and where.
 [[nodiscard]] bool SameStep(const PlannedReading& a, const PlannedReading& b);
 
+// Half of the 95 % interval, relative, that the calibrations of a session's meters leave however
+// often they read its one light; 0 where nobody says.
+[[nodiscard]] double MeterU95Relative(const Session& session);
+
 struct LadderWishes {
   MeasuringMinutes minutes{};
   double reach_m = 4.0;  // how far from the lamp a meter can stand; more where it already has
