@@ -85,8 +85,8 @@ class ControlPrior {
 
   std::vector<ControlKind> kinds_;
   CurveTarget target_;
-  std::vector<double> middle_, span_,
-      least_along_;         // of each control's coordinate, over the points
+  // Of each control's coordinate, over the points.
+  std::vector<double> middle_, span_, least_along_;
   std::size_t formed_ = 0;  // the first level, if there is one
   double least_ = 0.0;      // its label, of the points
 };
