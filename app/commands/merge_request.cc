@@ -13,6 +13,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/imaging/bracket/encoded_errors.h"
+#include "lightcal/records/stored_pixels.h"
 #include "picture_words.h"
 #include "progress_line.h"
 
@@ -162,6 +163,12 @@ Result<OpenedMerge> OpenMerge(const MergeOptions& options) {
   auto bracket = opened.sources.open_bracket(options.frames, *overrides);
   if (!bracket) return Propagate(std::move(bracket));
   opened.bracket = *std::move(bracket);
+  if (const auto& anchor = opened.request.anchor) {
+    const FrameInfo& info = opened.bracket.frames.front();
+    auto fits = CheckTurned(info.file, info, {anchor->x, anchor->y, anchor->width, anchor->height},
+                            opened.bracket.warnings);
+    if (!fits) return Propagate(std::move(fits));
+  }
   if (auto safe = RefuseHopelessShutter(opened.bracket.frames, *lamps); !safe) {
     return Propagate(std::move(safe));
   }

@@ -109,6 +109,7 @@ Result<void> TakeRadianceHeader(std::string_view bytes, FrameInfo& info) {
 void TurnAsShown(OiioPicture& picture) {
   const int tag = picture.orientation;
   if (!picture.is_float || tag < 2 || tag > 8) return;
+  picture.orientation = 1;
   const int stored_width = picture.width, stored_height = picture.height;
   const bool rows_for_columns = tag >= 5;
   const bool from_right = tag == 2 || tag == 3 || tag == 7 || tag == 8;
@@ -189,6 +190,7 @@ Result<FrameInfo> Describe(const OiioPicture& picture, const std::string& path,
   info.width = picture.width;
   info.height = picture.height;
   info.channels = picture.channels;
+  info.orientation = picture.orientation;
   info.channel_names = picture.channel_names;
   info.meaning = picture.is_float ? SampleMeaning::kLinear : SampleMeaning::kEncoded;
   if (!picture.is_float) {

@@ -182,6 +182,12 @@ void FillFromLibRaw(const libraw_imgother_t& other, WrittenExposure& written) {
   fill(written.iso, other.iso_speed, 0.0);
 }
 
+// LibRaw's flip: 1 mirrors columns, 2 rows, 4 exchanges them (libraw_image_sizes_t).
+int OrientationOf(int flip) {
+  constexpr std::array<int, 8> kOrientation{1, 2, 4, 3, 5, 8, 6, 7};
+  return flip >= 0 && flip < 8 ? kOrientation[static_cast<std::size_t>(flip)] : 1;
+}
+
 std::string CameraName(const libraw_iparams_t& camera) {
   const std::string_view make(camera.make, strnlen(camera.make, sizeof(camera.make)));
   const std::string_view model(camera.model, strnlen(camera.model, sizeof(camera.model)));
@@ -243,6 +249,7 @@ Result<FrameInfo> FrameInfoOf(const RawAnswer& answer, const std::string& path) 
   info.camera = CameraName(camera);
   info.width = answer.sizes.width;
   info.height = answer.sizes.height;
+  info.orientation = OrientationOf(answer.sizes.flip);
   info.meaning = camera.filters != kNoFilters ? SampleMeaning::kMosaic : SampleMeaning::kSensor;
   if (info.meaning == SampleMeaning::kMosaic) info.cfa = ColorFilterArray(camera);
   if (std::ranges::find(info.cfa.values, kOtherChannel) != info.cfa.values.end()) {

@@ -97,6 +97,9 @@ struct FrameInfo {
   std::string format;  // "dng" "raw" "exr" "hdr" "tiff" "png" "jpeg"
   std::string camera;  // make and model, "" = unknown
   int width = 0, height = 0, channels = 1;
+  // Of TIFF 6.0 and Exif: how viewers show it; 1 as it is stored. Finished pictures are turned when
+  // they are read; codes and sensor values are as stored.
+  int orientation = 1;
   SampleMeaning meaning = SampleMeaning::kLinear;
 
   FrameExposure exposure;

@@ -18,6 +18,7 @@
 #include "lightcal/imaging/camera/dark_frame.h"
 #include "lightcal/imaging/camera/flat_field.h"
 #include "lightcal/imaging/camera/raw_patch.h"
+#include "lightcal/records/stored_pixels.h"
 
 namespace lightcal {
 namespace {
@@ -94,6 +95,10 @@ class Calibrator {
     auto bracket = sources_.open_bracket(patterns, overrides);
     if (!bracket) return bracket;
     const FrameInfo& info = bracket->frames.front();
+    if (what.rect) {
+      auto fits = CheckTurned(what.where, info, *what.rect, bracket->warnings);
+      if (!fits) return Propagate(std::move(fits));
+    }
     if (frames_.empty() && profile_.width == 0) {
       profile_.camera = info.camera;
       profile_.width = info.width;

@@ -11,6 +11,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/camera/spectral_mismatch.h"
+#include "lightcal/records/stored_pixels.h"
 
 namespace lightcal {
 namespace {
@@ -40,6 +41,18 @@ Result<std::optional<KnownCamera>> UseOf(const CameraFile& camera,
   return use;
 }
 
+// The first place that a capture tells in pixels of its frames.
+std::optional<PixelBox> PlaceToldIn(const CaptureDescription& capture) {
+  if (capture.rect) return capture.rect;
+  if (capture.ball && capture.ball->rect) return capture.ball->rect;
+  if (!capture.wall) return std::nullopt;
+  if (capture.wall->anchor_rect) return capture.wall->anchor_rect;
+  for (const auto* const boxes : {&capture.wall->masks, &capture.wall->shadows}) {
+    if (!boxes->empty()) return boxes->front();
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 tl::unexpected<Error> AtCapture(const CaptureDescription& capture, Error error) {
@@ -60,7 +73,12 @@ Result<Bracket> OpenCapture(const Session& session, const CaptureDescription& ca
   overrides.iso = capture.iso;
   const std::vector<std::string> patterns = {PathInSession(session, capture.frames)};
   auto bracket = sources.open_bracket(patterns, overrides);
-  if (!bracket || capture.work.frame_stride <= 1) return bracket;
+  if (!bracket) return bracket;
+  if (const auto box = PlaceToldIn(capture)) {
+    const auto fits = CheckTurned(capture.where, bracket->frames.front(), *box, bracket->warnings);
+    if (!fits) return tl::unexpected(fits.error());
+  }
+  if (capture.work.frame_stride <= 1) return bracket;
   std::vector<FrameInfo> kept;
   const auto stride = static_cast<std::size_t>(capture.work.frame_stride);
   for (std::size_t i = 0; i < bracket->frames.size(); i += stride) {
@@ -68,6 +86,12 @@ Result<Bracket> OpenCapture(const Session& session, const CaptureDescription& ca
   }
   bracket->frames = std::move(kept);
   return bracket;
+}
+
+Error AtPlace(Error error, const Bracket& bracket) {
+  const auto turned = std::ranges::find(bracket.warnings, "turned_frames", &Warning::code);
+  if (turned != bracket.warnings.end()) error.message += "; " + turned->message;
+  return error;
 }
 
 Result<CapturePicture> MergeCapture(const Session& session, const CaptureDescription& capture,

@@ -64,6 +64,9 @@ struct PictureFindings {
 [[nodiscard]] Result<Bracket> OpenCapture(const Session& session, const CaptureDescription& capture,
                                           const Sources& sources);
 
+// What is wrong with a place in the picture; whether a viewer turns the frames may be why.
+[[nodiscard]] Error AtPlace(Error error, const Bracket& bracket);
+
 // Those frames merged with sigma, in colour where there is any, by capture.camera where it is
 // given. Fails and refused: merged_picture (one in cd/m^2 that says no exposure), and as
 // MergeFrames, CameraFileFromJson.

@@ -96,7 +96,7 @@ Result<CaptureReading> ReadCard(const Session& session, const CaptureDescription
   if (!picture) return tl::unexpected(picture.error());
   evidence.AddWarnings(picture->merged.warnings);
   const auto patch = MeasureCard(picture->merged, card);
-  if (!patch) return tl::unexpected(patch.error());
+  if (!patch) return tl::unexpected(AtPlace(patch.error(), *bracket));
   const auto lamp = LuminanceOfLamp(session, capture, *picture, patch->color, sources);
   if (!lamp) return tl::unexpected(lamp.error());
   AddCapture(session, capture, picture->merged, evidence);
