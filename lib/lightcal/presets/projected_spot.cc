@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "lightcal/core/units.h"
 
 namespace lightcal {
 namespace {
 
-constexpr double kWidest = 80.0 * std::numbers::pi / 180.0;
+constexpr double kWidest = 80.0 * kRadiansPerDegree;
 
 // Towards a direction at tan(angle) = `aside`.
 double BeamAt(const SpotCone& cone, double aside) {

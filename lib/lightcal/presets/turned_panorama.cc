@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "lightcal/core/units.h"
+
 namespace lightcal {
 
 std::array<MistakenTurn, kMistakenTurns> MistakenTurns() {
@@ -53,7 +55,7 @@ TurnedIrradiance IrradianceIfTurned(const EnvironmentPicture& picture, const Vec
 EnvironmentPicture ForEngineThatTurns(const EnvironmentPicture& picture, std::size_t way,
                                       double turn_deg) {
   const MistakenTurn mistake = MistakenTurns()[way];
-  const double turn = turn_deg * std::numbers::pi / 180.0;
+  const double turn = turn_deg * kRadiansPerDegree;
   EnvironmentPicture out = picture;
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightcal/core/units.h"
 #include "lightcal/report/contours.h"
 #include "lightcal/report/style.h"
 #include "lightcal/report/svg.h"
@@ -106,10 +107,11 @@ class Labels {
     taken_.push_back(at);
     const PagePoint& a = line[static_cast<std::size_t>(best_at - reach)];
     const PagePoint& b = line[static_cast<std::size_t>(best_at + reach)];
-    double degrees = std::atan2(b.second - a.second, b.first - a.first) * 57.29577951308232;
+    double degrees =
+        DegreesFromRadians(Radians(std::atan2(b.second - a.second, b.first - a.first)));
     if (degrees > 90.0) degrees -= 180.0;
     if (degrees < -90.0) degrees += 180.0;
-    const double turn = degrees / 57.29577951308232;
+    const double turn = degrees * kRadiansPerDegree;
     const PagePoint base = {at.first - 4.2 * std::sin(turn), at.second + 4.2 * std::cos(turn)};
     svg.Element(Turned(base, degrees, "isolabel halo", text));
     svg.Element(Turned(base, degrees, "isolabel", text));

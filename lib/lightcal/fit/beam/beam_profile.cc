@@ -13,6 +13,7 @@
 #include "lightcal/core/normal_mixture.h"
 #include "lightcal/core/standard_normal.h"
 #include "lightcal/core/statistics.h"
+#include "lightcal/core/units.h"
 #include "lightcal/fit/beam/rough_beam.h"
 #include "lightcal/fit/beam/solved_beams.h"
 
@@ -31,7 +32,7 @@ constexpr double kShapeSd = 0.012;
 
 // Fine steps as far as the beam reaches, then one degree.
 std::vector<double> AnglesFor(double half_rad) {
-  const double half = half_rad * 180.0 / kPi;
+  const double half = DegreesFromRadians(Radians(half_rad));
   const double fine = half < 5.0 ? 0.25 : (half < 15.0 ? 0.5 : 1.0);
   constexpr double whole = 90.0;
   std::vector<double> out;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "lightcal/core/statistics.h"
+#include "lightcal/core/units.h"
 
 namespace lightcal::fit {
 namespace {
@@ -41,7 +42,7 @@ std::vector<RoughPoint> RoughCurve(const std::vector<BeamRow>& rows) {
 }
 
 int DistinctAngles(const std::vector<RoughPoint>& curve) {
-  constexpr double kApart = 0.5 * std::numbers::pi / 180.0;
+  constexpr double kApart = 0.5 * kRadiansPerDegree;
   int count = 0;
   double last = -1.0;
   for (const RoughPoint& point : curve) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/fit/model/hypotheses.h"
 
@@ -139,7 +140,7 @@ std::optional<std::string> OneReading(const Estimation& all, const Prepared& pre
 // Readings beside the axis of a beam that was taken for a lamp shining alike all round.
 std::optional<std::string> Beam(const std::vector<ReadAt>& places, const Prepared& prepared,
                                 const Observations& observations) {
-  constexpr double kAside = 5.0 * std::numbers::pi / 180.0;
+  constexpr double kAside = 5.0 * kRadiansPerDegree;
   double largest = 0.0;
   for (const ReadAt& a : places) {
     for (const ReadAt& b : places) {
@@ -152,7 +153,7 @@ std::optional<std::string> Beam(const std::vector<ReadAt>& places, const Prepare
     }
   }
   if (largest < kAside) return std::nullopt;
-  return "readings " + RoundedText(largest * 180.0 / std::numbers::pi, 2) +
+  return "readings " + RoundedText(DegreesFromRadians(Radians(largest)), 2) +
          " degrees apart as seen from the lamp fall faster than distance explains: it is a beam; "
          "describe it as kind = \"spot\" with its aim";
 }

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units.h"
 #include "lightcal/fit/model/other_light_taken.h"
 #include "lightcal/fit/model/reading_geometry.h"
 #include "lightcal/records/display_step.h"
@@ -17,7 +17,7 @@ namespace lightcal::fit {
 namespace {
 
 // People point a meter within a degree, 1 sigma, once they mean a tilt.
-constexpr double kTiltSigma = std::numbers::pi / 180.0;
+constexpr double kTiltSigma = kRadiansPerDegree;
 // A reading under range lies anywhere from 0 to its limit L: mean L/2, sigma L/sqrt(12).
 constexpr double kUnderRangeMean = 0.5;
 const double kUnderRangeSigma = 1.0 / std::sqrt(3.0);  // relative to the mean

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units.h"
 #include "lightcal/fit/model/reading_geometry.h"
 #include "lightcal/light/models/body_of.h"
 
@@ -122,7 +123,7 @@ void WidenByAngle(const LightDescription& light, const std::optional<SourceModel
 }  // namespace
 
 Radians AngleSigma(const LightDescription& light) {
-  return light.angle_sigma.value_or(Radians(std::numbers::pi / 180.0));
+  return light.angle_sigma.value_or(RadiansFromDegrees(1.0));
 }
 
 std::optional<PlacedSource> PlacedSourceOf(const LightDescription& light) {

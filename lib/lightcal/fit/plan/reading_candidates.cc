@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "lightcal/core/units.h"
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/light/models/receiver.h"
 #include "lightcal/light/scene.h"
@@ -301,8 +302,7 @@ class Candidates {
     const double inner = fitted_->inner_deg.value_or(0.0);
     const SourceFrame frame = SourceFrame::Facing(*aim);
     for (const double part : {0.0, 0.5, 0.85}) {
-      const double angle =
-          (inner + part * (*fitted_->outer_deg - inner)) * std::numbers::pi / 180.0;
+      const double angle = (inner + part * (*fitted_->outer_deg - inner)) * kRadiansPerDegree;
       for (int q = 0; q < 4; ++q) {
         const double f = 0.5 * std::numbers::pi * q;
         const Vec3 way = *aim * std::cos(angle) +

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lightcal/core/units.h"
 #include "lightcal/imaging/bracket/code_motion.h"
 #include "lightcal/imaging/bracket/frame_motions.h"
 #include "lightcal/imaging/bracket/resample_frame.h"
@@ -64,7 +64,7 @@ FrameAlignment::Moved MovedBy(const FrameMotion& motion, double width, double he
   const auto [left_u, left_v] = h(x - arm, y);
   const auto [right_u, right_v] = h(x + arm, y);
   FrameAlignment::Moved moved{u - x, v - y, motion.sd_pixels, 0, 0, h, 0.0};
-  moved.turned_deg = std::atan2(right_v - left_v, right_u - left_u) * 180.0 / std::numbers::pi;
+  moved.turned_deg = DegreesFromRadians(Radians(std::atan2(right_v - left_v, right_u - left_u)));
   return moved;
 }
 

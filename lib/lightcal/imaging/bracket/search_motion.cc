@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <vector>
 
 #include "lightcal/core/parallel.h"
+#include "lightcal/core/units.h"
 #include "lightcal/imaging/bracket/pair_motion.h"
 
 namespace lightcal {
@@ -125,7 +125,7 @@ std::vector<RoughMotion> SearchMotion(const MotionPyramid& frame, const MotionPy
   const int most = static_cast<int>(std::ceil(kShiftShare * std::max(a.width, a.height)));
   std::vector<std::vector<ShiftCandidate>> found(2 * kTurnsEachWay + 1);
   ParallelFor(static_cast<int>(found.size()), [&](int i) {
-    const double turn = (i - kTurnsEachWay) * kTurnStep_deg * std::numbers::pi / 180.0;
+    const double turn = (i - kTurnsEachWay) * kTurnStep_deg * kRadiansPerDegree;
     found[static_cast<std::size_t>(i)] = BestShifts(a, of_a, of_b, b, turn, most);
   });
   std::vector<ShiftCandidate> all;

@@ -5,18 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "lightcal/core/statistics.h"
+#include "lightcal/core/units.h"
 
 namespace lightcal {
 namespace {
 
-constexpr double kField = 6.0 * std::numbers::pi / 180.0;  // on a side, of common errors
+constexpr double kField = 6.0 * kRadiansPerDegree;  // on a side, of common errors
 constexpr double kUnseenBend = 1e-4;  // rims, of a term of ExtraBend that nothing shows
 constexpr int kExtraBends = 6, kBendRounds = 30;
-constexpr double kAimSd = 10.0 * std::numbers::pi / 180.0;  // of a view that one field alone holds
+constexpr double kAimSd = 10.0 * kRadiansPerDegree;  // of a view that one field alone holds
 
 // What a lens and a sensor may do beside f, a and b, at the place (u, v) as a share of the rim:
 // sides that differ or lean, Brown's decentring, and an axis that is not in the middle, less the

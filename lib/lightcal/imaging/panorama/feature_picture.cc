@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include "lightcal/core/parallel.h"
 #include "lightcal/core/statistics.h"
+#include "lightcal/core/units.h"
 #include "lightcal/imaging/panorama/aimed_picture.h"
 
 namespace lightcal {
 namespace {
 
-constexpr double kWidestTheta = 115.0 * std::numbers::pi / 180.0;
+constexpr double kWidestTheta = 115.0 * kRadiansPerDegree;
 constexpr double kBlackShare = 1e-3;  // of the median: added before the logarithm
 constexpr int kMeanShare = 24;        // radius of the local mean, as a share of the longer side
 // Of ln L: what is flatter stays flat. Where little is noise, bare sky is no flat thing.

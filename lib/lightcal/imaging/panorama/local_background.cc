@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <utility>
 
 #include "lightcal/core/parallel.h"
 #include "lightcal/core/statistics.h"
+#include "lightcal/core/units.h"
 
 namespace lightcal {
 namespace {
 
 constexpr int kCellRows = 60;  // of 3 degrees
 constexpr double kPercentile = 0.7;
-const double kNeighbourhoodCosine = std::cos(25.0 * std::numbers::pi / 180.0);
+const double kNeighbourhoodCosine = std::cos(25.0 * kRadiansPerDegree);
 
 // Rows or columns [from, to) of the picture that cell i of n covers; never none.
 std::pair<int, int> Extent(int i, int n, int size) {

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
+
+#include "lightcal/core/units.h"
 
 namespace lightcal {
 namespace {
 
-constexpr double kFitsTree = 4.0 * std::numbers::pi / 180.0;
+constexpr double kFitsTree = 4.0 * kRadiansPerDegree;
 
 Eigen::Matrix3d MatrixOf(const CameraAxes& rows) {
   Eigen::Matrix3d m;

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units.h"
 
 namespace lightcal {
 namespace {
@@ -28,7 +29,7 @@ constexpr double kSigmaCentre = 0.01;  // of the longer side
 constexpr double kSigmaDistortion = 0.15;
 constexpr double kSmallestSigmaPx = 0.1;
 constexpr double kLargestRmsPx = 1.5;
-constexpr double kMostOblique = 75.0 * std::numbers::pi / 180.0;
+constexpr double kMostOblique = 75.0 * kRadiansPerDegree;
 constexpr double kFarAway = 1e6;  // pixels off, of a point behind the camera
 
 using Vector = Eigen::VectorXd;
@@ -347,7 +348,7 @@ Result<SolvedCamera> SolveCamera(std::span<const std::vector<BoardCorner>> views
   out.oblique_rad = std::acos(std::clamp(-to_camera[1] / Length(to_camera), -1.0, 1.0));
   if (out.oblique_rad > kMostOblique) {
     return Refused("board_oblique", "ChArUco board",
-                   "it is seen at " + RoundedText(out.oblique_rad * 180.0 / std::numbers::pi, 3) +
+                   "it is seen at " + RoundedText(DegreesFromRadians(Radians(out.oblique_rad)), 3) +
                        " degrees from its normal; 75 are the most: move the camera to face the "
                        "wall");
   }

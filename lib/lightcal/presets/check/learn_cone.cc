@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
+
+#include "lightcal/core/units.h"
 
 namespace lightcal {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 // What a renderer makes of two half angles, the likelier first.
 struct AngleReading {
@@ -40,9 +39,9 @@ std::vector<EngineConeLaw> LawsFor(EngineConeLaw written) {
 
 // As the measured beam has it: the squared law between its own angles.
 double BeamAt(const CheckedLamp& lamp, Radians angle) {
-  return SpotAttenuation(
-      angle, {Radians(lamp.inner_deg * kDegree_rad), Radians(lamp.outer_deg * kDegree_rad)},
-      SpotFalloff::kSquaredLinear);
+  return SpotAttenuation(angle,
+                         {RadiansFromDegrees(lamp.inner_deg), RadiansFromDegrees(lamp.outer_deg)},
+                         SpotFalloff::kSquaredLinear);
 }
 
 // Of a cone over the measured beam, the mean of the cards that stand about the axis.
@@ -87,12 +86,12 @@ std::optional<ConeFound> FindCone(const CheckedRig& axis, double on_axis,
   const CheckedLamp& lamp = axis.lamps.front();
   std::vector<Beside> seen;
   for (const SeenRig& one : off_axis) {
-    const Radians angle(one.rig->off_axis_deg * kDegree_rad);
+    const Radians angle = RadiansFromDegrees(one.rig->off_axis_deg);
     seen.push_back({angle, one.verdict->lux / one.verdict->expected_lx * BeamAt(lamp, angle)});
   }
-  const EngineCone file =
-      RefitCone(written, ProfileOf(SpotCone{Radians(lamp.inner_deg * kDegree_rad),
-                                            Radians(lamp.outer_deg * kDegree_rad)}));
+  const EngineCone file = RefitCone(
+      written,
+      ProfileOf(SpotCone{RadiansFromDegrees(lamp.inner_deg), RadiansFromDegrees(lamp.outer_deg)}));
   std::optional<ConeFound> nearest;
   double least = 4.0;
   for (const AngleReading& reading : kAngleReadings) {

@@ -11,6 +11,7 @@
 
 #include "lightcal/colorimetry/srgb_encoding.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units.h"
 #include "lightcal/presets/check/reader_parts.h"
 #include "lightcal/presets/check/whole_text.h"
 #include "lightcal/presets/exporters.h"
@@ -181,7 +182,7 @@ EngineLight FromNode(const Section& node) {
   light.emitted = lumens / std::numbers::pi;
   light.range_m = node.Number("spot_range", 5.0);
   light.decay = node.Number("spot_attenuation", 1.0);
-  light.outer_rad = node.Number("spot_angle", 45.0) * std::numbers::pi / 180.0;
+  light.outer_rad = node.Number("spot_angle", 45.0) * kRadiansPerDegree;
   light.cone_power = 1.0 / node.Positive("spot_angle_attenuation", 1.0);
   return light;
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "lightcal/core/units.h"
 #include "lightcal/light/lamp_axes.h"
 #include "lightcal/presets/check/json_reader_parts.h"
 #include "lightcal/presets/exporters.h"
@@ -65,8 +66,8 @@ bool TakeDistribution(const Json& distribution, const FileText& beside, EngineLi
 
 void TakeSpot(const Json& geometry, EngineLight& light) {
   light.kind = EngineLightKind::kSpot;
-  light.outer_rad = geometry["outer_deg"].get<double>() * std::numbers::pi / 180.0;
-  light.inner_rad = geometry.value("inner_deg", 0.0) * std::numbers::pi / 180.0;
+  light.outer_rad = geometry["outer_deg"].get<double>() * kRadiansPerDegree;
+  light.inner_rad = geometry.value("inner_deg", 0.0) * kRadiansPerDegree;
 }
 
 EngineLight FromPreset(const Json& json, const FileText& beside) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units.h"
 #include "lightcal/presets/check/reader_parts.h"
 #include "lightcal/presets/check/whole_text.h"
 #include "lightcal/presets/exporters.h"
@@ -174,7 +175,7 @@ void FromSphere(const Prim& prim, const FileText& beside, EngineLight& light) {
   if (outer >= 180.0) return;
   light.kind = EngineLightKind::kSpot;
   light.law = ConeLaw::kSmoothInAngle;
-  light.outer_rad = outer * std::numbers::pi / 180.0;
+  light.outer_rad = outer * kRadiansPerDegree;
   light.inner_rad = light.outer_rad * (1.0 - prim.Number("inputs:shaping:cone:softness", 0.0));
 }
 

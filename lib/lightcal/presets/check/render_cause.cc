@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "lightcal/colorimetry/srgb_encoding.h"
+#include "lightcal/core/units.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/check/reader_parts.h"
 #include "lightcal/presets/check/render_shape.h"
@@ -146,8 +147,7 @@ std::optional<RenderCause> TintIn(const CheckedLamp& lamp, const Rgb3& tint) {
 // ---- the factor ----
 
 double ConeSr(double degrees) {
-  return 2.0 * std::numbers::pi *
-         (1.0 - std::cos(std::min(degrees, 90.0) * std::numbers::pi / 180.0));
+  return 2.0 * std::numbers::pi * (1.0 - std::cos(std::min(degrees, 90.0) * kRadiansPerDegree));
 }
 
 std::vector<RenderCause> KnownFactors(const CheckedRig& rig) {

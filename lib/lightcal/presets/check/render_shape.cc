@@ -4,20 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units.h"
 #include "lightcal/presets/check/reader_parts.h"
 #include "lightcal/presets/engine_cone.h"
 
 namespace lightcal {
 namespace {
 
-constexpr double kDegrees = std::numbers::pi / 180.0;
 constexpr double kAlike = 0.03;  // |ln| between pictures of one scene that is right
 constexpr double kNinth = 0.05;  // the same under a panorama: engines keep nine harmonics of it
 
@@ -43,7 +42,7 @@ struct ConeShape {
 EngineCone ConeOf(EngineConeLaw law, double inner_deg, double outer_deg) {
   EngineCone cone;
   cone.law = law;
-  cone.cone = {Radians(inner_deg * kDegrees), Radians(std::min(outer_deg, 90.0) * kDegrees)};
+  cone.cone = {RadiansFromDegrees(inner_deg), RadiansFromDegrees(std::min(outer_deg, 90.0))};
   return cone;
 }
 
@@ -70,7 +69,7 @@ std::vector<ConeShape> ConeShapes(const CheckedLamp& lamp) {
                       "the cone has no penumbra: its inner angle is its outer one"});
   }
   const BeamProfile beam =
-      ProfileOf(SpotCone{Radians(inner * kDegrees), Radians(outer * kDegrees)});
+      ProfileOf(SpotCone{RadiansFromDegrees(inner), RadiansFromDegrees(outer)});
   for (const LawRow& row : kOtherLaws) {
     const EngineCone refitted = RefitCone(row.law, beam);
     shapes.push_back({refitted, "cone_as_exported",
@@ -87,7 +86,7 @@ bool OneSpot(const CheckedRig& rig) {
 }
 
 double OfAxial(const EngineCone& cone, const CheckedRig& rig) {
-  return ConeFactor(cone, Radians(rig.off_axis_deg * kDegrees));
+  return ConeFactor(cone, RadiansFromDegrees(rig.off_axis_deg));
 }
 double MeasuredOfAxial(const CheckedRig& rig) {
   const CheckedLamp& lamp = rig.lamps.front();

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "lightcal/core/units.h"
 #include "lightcal/presets/learnt_engine.h"
 #include "lightcal/records/json_codec.h"
 
@@ -91,7 +91,7 @@ void FindCamera(Finder& find, const Node& json, CheckedRig& rig) {
   rig.camera_m = find.Triple(json, "position_m");
   rig.target_m = find.Triple(json, "target_m");
   rig.up = find.Triple(json, "up");
-  rig.vertical_fov_rad = find.Number(json, "vertical_fov_deg") * std::numbers::pi / 180.0;
+  rig.vertical_fov_rad = find.Number(json, "vertical_fov_deg") * kRadiansPerDegree;
 }
 
 void FindPlace(Finder& find, const Node& json, CheckedRig& rig) {
