@@ -87,7 +87,8 @@ for room, said in (("dark = true", "says dark"), ("outdoors = true", "outdoors")
     walls = [one["reason"] for one in effects if one["name"] == "room_bounce"]
     assert walls and all(said in one and "no [room]" not in one for one in walls), walls
 
-# A reflector read by distances alone may shine to any side: which is asked for, and an aim answers it.
+# A reflector, or a lamp that nobody names, read by distances alone may shine to any side: which is asked for, and
+# an aim answers it.
 def aimed(light, *words):
     done = subprocess.run([LIGHTCAL, "simulate", str(light), "--at", "0,0,0", "--json", *words], check=True,
                           capture_output=True, text=True)
@@ -95,8 +96,9 @@ def aimed(light, *words):
     return lux["u95"] / lux["value"], done.stdout + done.stderr
 
 
-for place, given in (("", ("--position", "s=0,0,2")), ("position_m = [0, 0, 2]\n", ())):
-    session('kind = "point"\nfixture = "reflector"\n', AXIS)
+for fixture, place, given in ((fixture, place, given) for fixture in ('fixture = "reflector"\n', "") for place, given in
+                              (("", ("--position", "s=0,0,2")), ("position_m = [0, 0, 2]\n", ()))):
+    session('kind = "point"\n' + fixture, AXIS)
     path.write_text(path.read_text().replace("position_m = [0, 0, 2]\n", place))
     reflector = pathlib.Path(FOLDER.name) / "reflector.json"
     run("fit", path, "-o", reflector, "--force")
@@ -104,6 +106,28 @@ for place, given in (("", ("--position", "s=0,0,2")), ("position_m = [0, 0, 2]\n
     assert wide > 1 and "no aim is known" in said and "--aim s=" in said, said
     sure, said = aimed(reflector, *given, "--aim", "s=0,0,-1")
     assert sure < 0.3 and "no aim" not in said, (sure, said)
+
+# A point that nobody names, read from one side, is a bulb, a panel or a beam to that side; read from four it is
+# as even as they say.
+def placed(towards):
+    text = HEAD % (0.01, 0.003) + 'kind = "point"\n'
+    for x, y, z in towards:
+        text += (f'[[reading]]\nlight = "s"\nmeter = "m"\nposition_m = [{x}, {y}, {z}]\nnormal = [{-x}, {-y}, '
+                 f'{2 - z}]\nilluminance_lx = {100 / (x * x + y * y + (z - 2) ** 2):.6g}\n')
+    path.write_text(text)
+    light = pathlib.Path(FOLDER.name) / "placed.json"
+    run("fit", path, "-o", light, "--force")
+    return light
+
+
+asks = {a: (math.cos(math.radians(a)), math.sin(math.radians(a)), 2) for a in (0, 30, 60, 90, 180)}
+unnamed = placed([(1, 0, 2), (1.5, 0, 2), (2, 0, 2)])
+for (degrees, _), found in zip(asks.items(), simulated(unnamed, asks.values())):
+    c = math.cos(math.radians(degrees))
+    for what, truth in (("bulb", 1 + 0.15 * (c - 1)), ("panel", max(c, 0)), ("beam", 2 ** -((degrees / 20) ** 2))):
+        check(f"unnamed, a {what}, {degrees}", found, 100 * truth, 0.15 if degrees == 0 else None)
+around = simulated(placed([(1, 0, 2), (-1, 0, 2), (0, 1.5, 2), (0, -1.5, 2)]), [(0.7, 0.7, 2)])[0]
+check("unnamed, read from four sides", around, 100 / 0.98, 0.5)
 
 # A spot of which nothing is stated: its axis, and anything beside it.
 unknown = simulated(session(SPOT, AXIS), [on_floor(a) for a in (0, 20, 60)])

@@ -32,12 +32,21 @@ bool NeedsAim(const FittedLight& light) {
          light.kind == LightKind::kDirectional;
 }
 
-// A point in front of which its readings were made, wherever that was, and which may shine to that
-// side alone: as uneven as no bulb is.
-bool ShinesSomewhere(const FittedLight& light) {
+// A point in front of which its readings were made, and which may shine to that side alone: as
+// uneven as no bulb is, and not read from several sides.
+bool MayShineToOneSide(const FittedLight& light) {
   constexpr double kOfAnyBulb = 0.5;  // their gradient is .25 (UnevenOf), of lamps of one side .8
+  constexpr double kOneSide = 0.95;   // length of the mean of directions near together
   if (light.kind != LightKind::kPoint || !light.uneven) return false;
-  return Length(light.uneven->middle) == 0.0 && Length(light.uneven->gradient_sd) > kOfAnyBulb;
+  const double middle = Length(light.uneven->middle);
+  return Length(light.uneven->gradient_sd) > kOfAnyBulb && (middle == 0.0 || middle > kOneSide);
+}
+// The side from which such a lamp was read, where its meters' places tell it.
+std::optional<Vec3> SideRead(const FittedLight& light) {
+  if (!MayShineToOneSide(light)) return std::nullopt;
+  const Vec3& middle = light.uneven->middle;
+  const double length = Length(middle);
+  return length > 0.0 ? std::optional(middle * (1.0 / length)) : std::nullopt;
 }
 
 Result<Uncertain> StrengthOf(const FittedLight& light) {
@@ -160,9 +169,9 @@ PlaceDoubt PlaceDoubtOf(const FittedLight& light, double variance_ln, bool stand
   for (int k = 0; k < 3; ++k) {
     const double place = stands_there ? light.position_u95_m.value_or(Vec3{})[k] / kZ95 : 0.0;
     doubt.covariance[(1 + k) * kDiagonal] = place * place;
-    if (!light.uneven) continue;
+    if (!light.uneven || MayShineToOneSide(light)) continue;
     const double sd = light.uneven->gradient_sd[k];
-    const bool by_aim = aim && (!light.position_m || ShinesSomewhere(light));
+    const bool by_aim = aim && !light.position_m;
     doubt.middle[k] = by_aim ? (*aim)[k] / Length(*aim) : light.uneven->middle[k];
     doubt.covariance[(4 + k) * kDiagonal] = sd * sd;
   }
@@ -196,7 +205,8 @@ LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stan
     const double offset = light.distance_offset_m->u95 / kZ95;
     doubt.variance_offset = offset * offset;
   }
-  if (light.uneven || light.located || (light.position_u95_m && stands_there)) {
+  const bool uneven = light.uneven && !MayShineToOneSide(light);
+  if (uneven || light.located || (light.position_u95_m && stands_there)) {
     doubt.place = light.located ? PlaceDoubtOf(*light.located, stands_there)
                                 : PlaceDoubtOf(light, doubt.parts.empty() ? doubt.variance_ln : 0.0,
                                                stands_there, aim);
@@ -211,12 +221,16 @@ LampDoubt DoubtOf(const FittedLight& light, const Uncertain& strength, bool stan
 }
 
 // Off its aim: as its table is known; a flat lamp and a tube as far from their laws as their flux
-// is; a spot of which nobody knows how it shines, anyhow.
-void AddPattern(const FittedLight& light, const Uncertain& strength, PlacedLamp& lamp) {
+// is; a lamp of which nobody knows how it shines, anyhow, and everywhere where its aim is not
+// known.
+void AddPattern(const FittedLight& light, const Uncertain& strength, bool aimed, PlacedLamp& lamp) {
   LampDoubt& doubt = lamp.doubt;
   const bool beam = light.kind == LightKind::kSpot || light.kind == LightKind::kPhotometric;
-  if (beam && std::holds_alternative<PointSource>(lamp.source)) {
-    doubt.pattern = std::make_shared<const PatternDoubt>(DoubtOfAnyBeam());
+  const bool anyhow = beam && std::holds_alternative<PointSource>(lamp.source);
+  if (anyhow || MayShineToOneSide(light)) {
+    const bool known = beam || aimed;
+    doubt.pattern =
+        std::make_shared<const PatternDoubt>(known ? DoubtOfAnyBeam() : DoubtOfAnyAim());
     doubt.variance_ln_flux = kAnyBeamLnFluxSd * kAnyBeamLnFluxSd;
     return;
   }
@@ -284,11 +298,17 @@ class Placer {
                           "no aim is known: it shines straight down; {place.aim} " + light.name +
                               "=x,y,z says otherwise"});
     }
-    if (!aim && ShinesSomewhere(light)) {
-      warnings.push_back({"aim_unknown", light.name,
-                          "no aim is known: its light may go anywhere, and off its aim it may be "
-                          "dark; {place.aim} " +
-                              light.name + "=x,y,z says to which side it was read"});
+    if (!aim && MayShineToOneSide(light)) {
+      aim = SideRead(light);
+      warnings.push_back(
+          aim ? Warning{"pattern_unknown", light.name,
+                        "was read from one side, to which alone it may shine: elsewhere anything "
+                        "from dark to as much again; say that it is a bulb (fixture), if it is, "
+                        "or read it from other sides"}
+              : Warning{"aim_unknown", light.name,
+                        "no aim is known: its light may go anywhere, and off its aim it may be "
+                        "dark; {place.aim} " +
+                            light.name + "=x,y,z says to which side it was read"});
     }
     PlacedLamp lamp;
     lamp.name = light.name;
@@ -317,7 +337,7 @@ class Placer {
       lamp.pose.offset_m = 0.0;
     }
     lamp.doubt = DoubtOf(light, *strength, !places_.position_m.contains(light.name), aim);
-    AddPattern(light, *strength, lamp);
+    AddPattern(light, *strength, aim.has_value(), lamp);
     if (OffsetHoldsRadius(light)) {
       lamp.pose.offset_m = 0.0;
       lamp.doubt.variance_offset = lamp.doubt.covariance = 0.0;

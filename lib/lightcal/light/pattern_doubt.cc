@@ -20,6 +20,8 @@ double PatternDoubt::At(double gamma) const {
   return part_sd[i - 1] + part * (part_sd[i] - part_sd[i - 1]);
 }
 
+PatternDoubt DoubtOfAnyAim() { return {{0.0}, {1.0 / kZ95}}; }
+
 PatternDoubt DoubtOfAnyBeam() {
   constexpr double kNarrowest_deg = 3.0, kWidest_deg = 60.0;
   constexpr int kBeams = 60;

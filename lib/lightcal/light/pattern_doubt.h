@@ -19,6 +19,8 @@ struct PatternDoubt {
 //   1 - 2^-(gamma/h)^2,  ln h even between 3 and 60 degrees (full beams of 6 to 120),
 // and no more than what it is taken to send there within 95 %.
 [[nodiscard]] PatternDoubt DoubtOfAnyBeam();
+// Of one whose aim nobody knows either: from dark to twice that, 95 %, in all directions.
+[[nodiscard]] PatternDoubt DoubtOfAnyAim();
 // 1 sigma of ln of all its light: between the .0089 of 4 pi I that the narrowest of traced lamps
 // send (FluxSpreadOf, fit/model/data_sheet.h) and 1, 95 %.
 inline constexpr double kAnyBeamLnFluxSd = 1.205;

@@ -76,8 +76,13 @@ std::optional<Vec3> GradientOf(const LightDescription& light) {
 
 std::optional<UnevenLight> UnevenOf(const Observations& observations,
                                     const LightDescription& light) {
-  if (auto placed = UnevenByPlaces(observations, light)) return placed;
-  const std::optional<Vec3> sd = GradientOf(light);
+  LightDescription named = light;
+  if (light.kind == LightKind::kPoint && !light.fixture) {
+    const bool all_round = TakenToShineEvenly(observations, light);
+    named.fixture = all_round ? Fixture::kBulb : Fixture::kReflector;
+  }
+  if (auto placed = UnevenByPlaces(observations, named)) return placed;
+  const std::optional<Vec3> sd = GradientOf(named);
   const bool read = std::ranges::any_of(observations.rows, &Observation::lit);
   if (!sd || !read) return std::nullopt;
   const double length = light.aim ? Length(*light.aim) : 0.0;

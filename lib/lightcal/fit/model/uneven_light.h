@@ -17,8 +17,10 @@ namespace lightcal::fit {
 // Absent: its kind says how it shines, or nothing is known of its fixture.
 [[nodiscard]] std::optional<Vec3> GradientOf(const LightDescription& light);
 
-// Of a point of stated fixture. Meters of which a distance alone is known stood on its axis; where
-// nobody states its aim they stood anywhere, and the middle is no direction.
+// Of a point. One whose fixture nobody states may shine to the side alone from which it was read;
+// as bulbs do where it was read from several (TakenToShineEvenly). Meters of which a distance alone
+// is known stood on its axis; where nobody states its aim they stood anywhere, and the middle is no
+// direction.
 [[nodiscard]] std::optional<UnevenLight> UnevenOf(const Observations& observations,
                                                   const LightDescription& light);
 
