@@ -54,7 +54,16 @@ std::string WithIt(const EngineFigure& figure) {
     return " + " + figure.note.substr(at + kTemperature.size(), end - at - kTemperature.size()) +
            " K";
   }
-  return HasColor(figure) ? " + colour" : "";
+  std::string with = HasColor(figure) ? " + colour" : "";
+  if (figure.note.find("exported .ies") != std::string::npos) with += " + its .ies";
+  return with;
+}
+// Of a luminance, the size that it is of.
+std::string RadiusOf(const EngineFigure& figure) {
+  constexpr std::string_view kRadius = "radius ";
+  const auto at = figure.note.find(kRadius);
+  if (at == std::string::npos) return "";
+  return " at " + figure.note.substr(at, figure.note.find(" m", at) + 2 - at);
 }
 
 // "0.37", "0.10", "0.08", "1.2".
@@ -115,7 +124,7 @@ std::string TypeIn(const std::vector<EngineFigure>& figures) {
   for (const EngineFigure& figure : figures) {
     std::string typed = Typed(figure.value);
     if (!figure.unit.empty()) typed += " " + figure.unit;
-    typed += WithIt(figure);
+    typed += RadiusOf(figure) + WithIt(figure);
     const auto same = std::ranges::find(groups, typed, &std::pair<std::string, std::string>::first);
     const std::string name = ShortName(figure.engine);
     if (same == groups.end()) {

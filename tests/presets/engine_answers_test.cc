@@ -84,6 +84,36 @@ TEST(EngineAnswers, BlenderSaysThePowerOfASpotThatItsFileHasAsIes) {
   }
 }
 
+std::string NoteOf(const EngineAnswers& answers, std::string_view engine) {
+  const auto figure = std::ranges::find(answers.figures, engine, &EngineFigure::engine);
+  return figure == answers.figures.end() ? "" : figure->note;
+}
+
+// Axial candela of an area light of P watts: 683 P/pi, before 4.0 683 P/4 (rendered in 3.4).
+TEST(EngineAnswers, BlenderSaysThePowerThatAnAreaLightTookBefore4) {
+  FittedLight disk = Disk();
+  disk.color = {};
+  const EngineAnswers answers = EngineAnswersOf(FileOf({disk}));
+  const auto figure = std::ranges::find(answers.figures, "Blender", &EngineFigure::engine);
+  ASSERT_NE(figure, answers.figures.end());
+  EXPECT_NEAR(std::stod(figure->value), std::numbers::pi * 400.0 / 683.0, 1e-4);
+  EXPECT_THAT(figure->note, ::testing::HasSubstr("before Blender 4.0 2.343 W"));  // 4 x 400/683
+}
+
+TEST(EngineAnswers, ABeamsNumberNamesTheFileThatItGoesWith) {
+  IntensityGrid grid{GoniometerType::kC, {0.0}, {}, {}};
+  for (int deg = 0; deg <= 180; ++deg) {
+    grid.vertical_deg.push_back(deg);
+    grid.candela.push_back(1000.0 * std::exp2(-(deg / 18.0) * (deg / 18.0)));
+  }
+  FittedLight lamp = SimpleLight("beam", LightKind::kPhotometric, 1000.0);
+  lamp.distribution = MeasuredDistribution{*IntensityTable::Make(std::move(grid), "beam")};
+  const EngineAnswers answers = EngineAnswersOf(FileOf({lamp}));
+  EXPECT_THAT(NoteOf(answers, "Unreal Engine"), ::testing::HasSubstr("exported .ies"));
+  EXPECT_THAT(NoteOf(answers, "Unreal Engine"), ::testing::HasSubstr("Spot Light, whose cone"));
+  EXPECT_THAT(NoteOf(answers, "USD"), ::testing::HasSubstr("exported .ies"));
+}
+
 // Godot's shader takes no rim below 1e-4: of such a beam, whose exponent is the smallest, a tenth
 // of the light on the axis is missing in it. Read back by the reader's own law.
 TEST(EngineAnswers, APeakedBeamHasItsCandelaOnTheAxisInGodot) {

@@ -95,8 +95,12 @@ double WattsOf(const PresetLight& light) {
 }
 
 // What a light with an IES node is told by itself is that node's multiplier, whatever the lamp: a
-// person who types takes Blender's own light of that intensity.
+// person who types takes Blender's own light of that intensity. Before 4.0 an area light of P watts
+// has P/4 on its axis, not P/pi.
 void PutPlainPower(const PresetLight& light, DerivedLight& out) {
+  if (light.form == LightForm::kRect || light.form == LightForm::kDisk) {
+    out.elsewhere.push_back({"area_power_before_4_0_W", {4.0 / std::numbers::pi * WattsOf(light)}});
+  }
   if (light.form != LightForm::kTable) return;
   const PunctualLight& plain = light.punctual;
   const double watts =

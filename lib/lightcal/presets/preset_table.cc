@@ -19,7 +19,9 @@ constexpr TypedNote kEncodedColor{"light_color", "Color ", " (sRGB)"};
 constexpr TypedNote kRadius{"radius", "radius ", " m"};
 constexpr TypedNote kColorNotes[] = {kLinearColor};
 constexpr TypedNote kBlenderNotes[] = {
-    kLinearColor, {"ies_strength_W", "the exported file has an IES node, of Power ", " W"}};
+    kLinearColor,
+    {"area_power_before_4_0_W", "before Blender 4.0 ", " W"},
+    {"ies_strength_W", "the exported file has an IES node, of Power ", " W"}};
 
 constexpr TypedNumber kGltfNumbers[] = {{"directional", "intensity", "intensity", "lx"},
                                         {"", "intensity", "intensity", "cd"}};
@@ -48,10 +50,15 @@ constexpr TypedNumber kUnityNumbers[] = {{"Directional", "intensity", "Intensity
 constexpr TypedNumber kUnrealNumbers[] = {{"DirectionalLight", "intensity", "Intensity", "lx"},
                                           {"SkyLight", "intensity", "Intensity of the cubemap", ""},
                                           {"", "intensity", "Intensity", "cd"}};
-constexpr TypedNote kUnrealNotes[] = {{"temperature", "Temperature ", " K"}, kEncodedColor};
+constexpr TypedNote kUnrealNotes[] = {
+    {"temperature", "Temperature ", " K"},
+    kEncodedColor,
+    {"ies", "with the exported .ies as its IES Texture", "", false},
+    {"spot_angles_deg", "or of a Spot Light, whose cone angles are ", ""}};
 constexpr TypedNumber kUsdNumbers[] = {{"DistantLight", "intensity", "intensity", "lx"},
                                        {"", "intensity", "intensity", "nits"}};
-constexpr TypedNote kUsdNotes[] = {kLinearColor, kRadius};
+constexpr TypedNote kUsdNotes[] = {
+    kLinearColor, kRadius, {"ies", "with the exported .ies (shaping:ies:file)", "", false}};
 constexpr TypedNumber kBlenderNumbers[] = {{"SUN", "energy_W", "Strength", "W/m²"},
                                            {"IES", "spot_power_W", "Power of a plain Spot", "W"},
                                            {"IES", "point_power_W", "Power of a plain Point", "W"},

@@ -27,6 +27,7 @@ struct TypedNumber {
 // What must be set with it.
 struct TypedNote {
   std::string_view field, before, after;
+  bool shows_number = true;
 };
 
 // What a sample of a linear picture (EXR) stands for.

@@ -179,6 +179,16 @@ std::string ActorText(const std::string& id, const PresetLight& light, const Unr
   return text;
 }
 
+// Without a profile a measured beam would shine with its peak to all sides: the nearest cone.
+UnrealLight WithoutProfile(const PresetLight& light, UnrealLight unreal) {
+  if (light.form != LightForm::kTable || light.punctual.type != PunctualType::kSpot) return unreal;
+  unreal.derived.type = "SpotLight";
+  const auto [inner, outer] = UnrealAnglesOf(light.punctual.cone);
+  unreal.derived.Put("inner_cone_angle", inner);
+  unreal.derived.Put("outer_cone_angle", outer);
+  return unreal;
+}
+
 std::string T3dText(const std::vector<PresetLight>& lights,
                     const std::vector<UnrealLight>& unreal) {
   std::string text = "Begin Map\n  Begin Level\n";
@@ -186,7 +196,7 @@ std::string T3dText(const std::vector<PresetLight>& lights,
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (lights[i].form == LightForm::kDome) continue;
     text += ActorText("lightcal_" + preset_text::Identifier(lights[i].name(), taken), lights[i],
-                      unreal[i]);
+                      WithoutProfile(lights[i], unreal[i]));
   }
   return text + "  End Level\nEnd Map\n";
 }
@@ -230,9 +240,13 @@ Result<Preset> ExportUnreal(const LightFile& lights, const std::string& stem,
     if ((*forms)[i].form != LightForm::kTable || !(*ies)[i]) continue;
     preset.files.push_back(*(*ies)[i]);
     if (!options.into.empty()) continue;
-    preset.warnings.push_back({"ies_by_script_only", (*forms)[i].name(),
-                               "a .t3d imports no photometric file: run the script, or assign the "
-                               ".ies by hand"});
+    const bool cone = (*forms)[i].punctual.type == PunctualType::kSpot;
+    preset.warnings.push_back(
+        {"ies_by_script_only", (*forms)[i].name(),
+         std::string("a .t3d imports no photometric file: ") +
+             (cone ? "its light has the nearest cone"
+                   : "its light shines with its peak to all sides") +
+             "; run the script, or assign the .ies by hand to a point light"});
   }
   for (const IntoRow& row : options.into) {
     data["into"].push_back({{"lamp", row.lamp}, {"object", row.object}});

@@ -58,12 +58,15 @@ void PutUnrealCone(const PresetLight& light, DerivedLight& out, Warnings& warnin
 
 }  // namespace
 
+std::array<double, 2> UnrealAnglesOf(const SpotCone& cone) {
+  return {std::min(DegreesFromRadians(cone.inner), kWidestOuter_deg),
+          std::min(DegreesFromRadians(cone.outer), kWidestOuter_deg)};
+}
+
 std::array<double, 2> UnrealSpotOf(const PresetLight& light) {
   const bool refitted = light.form == LightForm::kSpot;
   if (!refitted && light.form != LightForm::kRect) return {kWidestOuter_deg, kWidestOuter_deg};
-  const SpotCone& cone = refitted ? light.cone.cone : light.punctual.cone;
-  return {std::min(DegreesFromRadians(cone.inner), kWidestOuter_deg),
-          std::min(DegreesFromRadians(cone.outer), kWidestOuter_deg)};
+  return UnrealAnglesOf(refitted ? light.cone.cone : light.punctual.cone);
 }
 
 UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
@@ -105,7 +108,12 @@ UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
   derived.type = light.form == LightForm::kSpot ? "SpotLight" : "PointLight";
   derived.Put("source_radius", light.radius_m * kCentimetres);
   if (light.form == LightForm::kSpot) PutUnrealCone(light, derived, warnings);
-  if (light.form == LightForm::kTable) derived.elsewhere.push_back({"ies", {1.0}});
+  if (light.form != LightForm::kTable) return out;
+  derived.elsewhere.push_back({"ies", {1.0}});
+  if (light.punctual.type == PunctualType::kSpot) {
+    const auto [inner, outer] = UnrealAnglesOf(light.punctual.cone);
+    derived.elsewhere.push_back({"spot_angles_deg", {inner, outer}});
+  }
   return out;
 }
 

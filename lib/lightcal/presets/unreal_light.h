@@ -35,6 +35,8 @@ struct UnrealLight {
 [[nodiscard]] UnrealLight UnrealLightFrom(const PresetLight& light, const FalloffRefit& refit,
                                           Warnings& warnings);
 
+// Inner and outer angle [degrees] of that cone, the engine's own law (kSquared), as far as it goes.
+[[nodiscard]] std::array<double, 2> UnrealAnglesOf(const SpotCone& cone);
 // Inner and outer angle [degrees] of a spot that shows this lamp: its cone; of a face the nearest
 // one; else the widest, for a cone cuts what shines all round or has a photometric file.
 [[nodiscard]] std::array<double, 2> UnrealSpotOf(const PresetLight& light);

@@ -352,6 +352,7 @@ Result<Preset> ExportUsd(const LightFile& lights, const std::string& stem,
       if (!finite) return Propagate(std::move(finite));
     }
     preset.derived.push_back(readings.back()[static_cast<std::size_t>(options.usd_reading)]);
+    if (light.form == LightForm::kTable) preset.derived.back().elsewhere.push_back({"ies", {1.0}});
     prims.push_back(Identifier(light.name(), taken));
     std::string picture;
     if (light.environment) {

@@ -439,6 +439,21 @@ class Pipelines(unittest.TestCase):
         self.assertIn("--range 13.4m", said[0])
 
 
+class PastedBeams(unittest.TestCase):
+    def test_without_its_profile_a_beam_pastes_as_the_nearest_cone(self):
+        with tempfile.TemporaryDirectory() as path:
+            subprocess.run([LIGHTCAL, "quick", "--lumens", "806", "--beam", "36", "--field", "60", "--to", "unreal",
+                            "-o", path], check=True, capture_output=True)
+            seen = read_unreal.read_t3d(open(os.path.join(path, "light.t3d")).read())["light"]
+        self.assertLess(seen.outer, 60)
+        inner, outer = (math.cos(math.radians(a)) for a in (seen.inner, seen.outer))
+        part = lambda c: min(max((c - outer) / (inner - outer), 0.0), 1.0) ** 2
+        steps = 20000
+        lumens = sum(part(1 - (i + 0.5) / steps) for i in range(steps)) * 2 * math.pi / steps * seen.candela
+        self.assertAlmostEqual(lumens / 806, 1, delta=0.03)  # 25,028 lm of a point of that peak
+        self.assertAlmostEqual(part(math.cos(math.radians(18))), 0.5, delta=0.08)
+
+
 class Refits(unittest.TestCase):
     """Each engine's own law at every reading, at the range of the bar, from the written file."""
     DISTANCES = (0.25, 0.5, 1.0, 2.0)

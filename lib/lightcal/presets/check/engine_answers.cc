@@ -39,8 +39,9 @@ std::string NoteOf(const PresetTarget& engine, const DerivedLight& light) {
   for (const TypedNote& row : engine.notes) {
     const DerivedField* field = light.Find(row.field);
     if (field == nullptr) continue;
-    note += (note.empty() ? "" : "; ") + std::string(row.before) + TextOf(*field, kColorDigits) +
-            std::string(row.after);
+    note += (note.empty() ? "" : "; ") + std::string(row.before);
+    if (row.shows_number) note += TextOf(*field, kColorDigits);
+    note += row.after;
   }
   if (!light.substitution.empty()) note += (note.empty() ? "" : "; ") + light.substitution;
   return note;
