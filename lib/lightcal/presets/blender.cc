@@ -256,6 +256,14 @@ Result<Preset> ExportBlender(const LightFile& lights, const std::string& stem,
   std::ranges::move(pictures, std::back_inserter(preset.files));
   preset.paste = (options.into.empty() ? "blender -P " : "blender YOURS.blend -P ") +
                  std::string(kPasteDirectory) + "/" + name + ".blender.py";
+  const bool dome = std::ranges::any_of(
+      *forms, [](const PresetLight& light) { return light.form == LightForm::kDome; });
+  if (dome && !options.rig) {
+    preset.paste +=
+        "   (a scene with a world of its own, as Blender's start-up scene has, keeps "
+        "it: choose \"lightcal " +
+        name + "\" in World properties)";
+  }
   return preset;
 }
 

@@ -88,6 +88,18 @@ class LightsAlone(unittest.TestCase):
         self.assertEqual(changed(rigged, rigged_again), set())
 
 
+class Domes(unittest.TestCase):
+    def test_export_says_that_a_scenes_own_world_stays(self):
+        for names, said in ((NAMES, True), (NAMES[:-1], False)):
+            with tempfile.TemporaryDirectory() as folder:
+                lamps = os.path.join(folder, 'set.json')
+                with open(lamps, 'w') as out:
+                    out.write(golden_lights.light_json(names, (0.5, 1.0)))
+                done = subprocess.run([LIGHTCAL, 'export', lamps, '--to', 'blender', '-o', folder],
+                                      capture_output=True, text=True, check=True)
+                self.assertEqual('choose "lightcal set" in World properties' in done.stdout + done.stderr, said)
+
+
 class Into(unittest.TestCase):
     """Lights that are there, by name: nothing is made, nothing moves, nothing else changes."""
     ROWS = [('key', 'PropLamp_0'), ('key', 'PropLamp_1?'), ('green spot', 'PropLamp_4'), ('panel', 'PropLamp_5'),
