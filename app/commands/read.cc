@@ -88,6 +88,13 @@ class ReadRun {
     if (!light) return Propagate(std::move(light));
     frame.light = *std::move(light);
     if (auto named = CheckNames(*session_, frame.light, frame.meter); !named) return named;
+    const LightKind kind = FindLight(*session_, frame.light)->kind;
+    const bool everywhere = kind == LightKind::kDirectional || kind == LightKind::kDome;
+    if (!everywhere && !frame.distance) {
+      return WrongUsage("--distance",
+                        "give the distance from the lamp, for example 0.5m; or --guided to be told "
+                        "where to put the meter");
+    }
     return CheckState(*session_, frame);
   }
 

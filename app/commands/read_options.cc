@@ -52,14 +52,8 @@ bool NamesNoReading(const ReadArguments& a) {
 }
 
 Result<void> CheckComplete(const ReadArguments& arguments) {
-  const bool into_journal = !arguments.session.empty();
-  if (!arguments.once && !into_journal) {
+  if (!arguments.once && arguments.session.empty()) {
     return WrongUsage("-s", "name the session the reading goes into, or pass --once");
-  }
-  if (into_journal && arguments.distance.empty()) {
-    return WrongUsage("--distance",
-                      "give the distance from the lamp, for example 0.5m; or --guided to be told "
-                      "where to put the meter");
   }
   return {};
 }

@@ -628,9 +628,10 @@ TEST(Ratio, OneMetersIntervalNeverReadsAsTheWiderOne) {
   std::string text =
       "lightcal = 1\n[room]\ndark = true\n[[meter]]\nname = \"m\"\nsigma_relative = 0.06\n"
       "calibration_relative = 0.02\n";
-  for (const auto& [name, candela, x] : {std::tuple("a", 100.0, "0"), std::tuple("b", 50.0, "2")}) {
+  for (const auto& [name, candela, x, toward] :
+       {std::tuple("a", 100.0, "0", "1"), std::tuple("b", 50.0, "2", "-1")}) {
     text += "[[light]]\nname = \"" + std::string(name) + "\"\nkind = \"point\"\nposition_m = [" +
-            x + ", 0, 2]\n";
+            x + ", 0, 2]\naim = [" + toward + ", 0, -2]\n";
     for (const double d : {1.0, 2.0, 4.0}) {
       text += "[[reading]]\nlight = \"" + std::string(name) +
               "\"\nmeter = \"m\"\ndistance_m = " + std::to_string(d) +

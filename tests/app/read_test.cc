@@ -449,6 +449,33 @@ TEST(ReadTyped, TheOnlyLampNeedsNoNameAndAColourMetersDuvIsKept) {
   EXPECT_THAT(unsaid.err, AllOf(HasSubstr("--light"), HasSubstr("key"), HasSubstr("fill")));
 }
 
+TEST(ReadTyped, TheSunHasNoDistanceAndALampHasOne) {
+  SessionDir sun;
+  sun.dir.Write("session.toml",
+                "lightcal = 1\n[[light]]\nname = \"sun\"\nkind = \"directional\"\n");
+  const CliResult read = RunLightcal({"read", "-s", sun.dir.path(), "--lux", "50000"});
+  ASSERT_EQ(read.exit_code, 0) << read.err;
+  const std::vector<json> rows = sun.Journal();
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0]["illuminance_lx"], 50000.0);
+  EXPECT_FALSE(rows[0].contains("distance_m"));
+  EXPECT_EQ(RunLightcal({"fit", sun.dir.path()}).exit_code, 0);
+  const SessionDir lamps;
+  const CliResult lamp =
+      RunLightcal({"read", "-s", lamps.dir.path(), "--light", "key", "--lux", "9"});
+  EXPECT_EQ(lamp.exit_code, 2);
+  EXPECT_THAT(lamp.err, HasSubstr("give the distance from the lamp"));
+}
+
+// Somebody gives the answer for the question.
+TEST(ReadTyped, ALightJsonGivenForASessionIsNamedAsOne) {
+  const TempDir dir;
+  dir.Write("light.json", "{\"schema\": \"lightcal.light/1\"}");
+  const CliResult result = RunLightcal({"explain", dir.path() + "/light.json"});
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("is JSON, not a session"));
+}
+
 TEST(ReadTyped, AReadingTypedWrongIsTakenBackAndTheJournalKeepsBoth) {
   const SessionDir session;
   const auto undo = [&](std::vector<std::string> more = {}) {

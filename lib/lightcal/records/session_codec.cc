@@ -259,6 +259,12 @@ std::optional<StrangeName> FindStrangeName(const Session& session,
 }
 
 Result<LoadedSession> ParseSession(std::string_view text, std::string_view where) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first != std::string_view::npos && text[first] == '{') {
+    return Refused("bad_session", std::string(where),
+                   "is JSON, not a session (TOML): where it is a light.json made of one, give that "
+                   "session or its folder");
+  }
   const auto document = ParseToml(text);
   if (!document) {
     const int line = document.error().line;
