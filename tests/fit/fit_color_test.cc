@@ -46,6 +46,22 @@ TEST(FitColor, OneChromaticityGivesItsOwnTemperature) {
   EXPECT_LT(color.cct_K->u95, 120.0);
 }
 
+TEST(FitColor, TheMeterIsNamedWhereOneReadItAll) {
+  const Xy xy = XyFromCct(Kelvin(3200.0));
+  Session session = Empty();
+  Add(session, ColorSource::kSpectrometer, "c800").xy = xy;
+  EXPECT_EQ(Fit(session).meter, (ColorMeter{"c800", kSigmaXySpectrometer}));
+  Add(session, ColorSource::kColorimeter, "c800").xy = xy;
+  EXPECT_FALSE(Fit(session).meter);
+  for (const auto& [source, name] : {std::pair{ColorSource::kSpectrometer, ""},
+                                     {ColorSource::kUnknown, kDataSheetMeter},
+                                     {ColorSource::kCamera, "a7"}}) {
+    Session other = Empty();
+    Add(other, source, name).xy = xy;
+    EXPECT_FALSE(Fit(other).meter) << name;
+  }
+}
+
 TEST(FitColor, TemperatureAloneLiesOnTheLocusWithAnHonestDuv) {
   Session session = Empty();
   Add(session, ColorSource::kUnknown).cct = Kelvin(2900.0);

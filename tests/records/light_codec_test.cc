@@ -107,6 +107,7 @@ TEST(LightJson, WhatLampAndRoomMayBeComesBackBitForBit) {
   }
   light.in_room = {one, {0.3, 3.5, 0.0, 0.0, -5.7, 0.6, 0.0, 0.25, 0.0, 0.0, {}}};
   light.meter = MeterShare{"c800", 0.031};
+  light.color.meter = ColorMeter{"c7000", 0.0015};
   light.of_file = Uncertain{0.78, 0.04, {}, {}};
   light.residuals.at(0).walls_lx = 8.25;
   light.residuals.at(0).facing_lx = 230.5;
@@ -122,6 +123,7 @@ TEST(LightJson, WhatLampAndRoomMayBeComesBackBitForBit) {
   EXPECT_EQ(back.in_room[1].ln_b, -5.7);
   EXPECT_EQ(back.meter->name, "c800");
   EXPECT_EQ(back.meter->calibration_relative, 0.031);
+  EXPECT_EQ(back.color.meter, light.color.meter);
   EXPECT_EQ(back.of_file->value, 0.78);
   EXPECT_EQ(back.residuals.at(0).walls_lx, 8.25);
   EXPECT_EQ(back.residuals.at(0).facing_lx, 230.5);

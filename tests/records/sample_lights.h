@@ -43,6 +43,7 @@ inline LightFile FullLightFile() {
   light.color.cct_K = Uncertain{2900.4, 31.5, 2869.0, 2932.0};
   light.color.duv = Uncertain{-0.0012, 0.0004, -0.0016, -0.0008};
   light.color.xy = Xy{0.4476, 0.4074};
+  light.color.meter = ColorMeter{"c7000", 0.0015};
   light.fit = {7, 5, {1, 6}, 0.012, 0.9, 2, 0.02, 314.5, {"intensity"}, {"ambient", "offset"}};
   light.effects = {
       {"cosine", EffectState::kOn, 0.03, 0.011, 2.5, "the meter was tilted"},

@@ -39,6 +39,13 @@ class Cone(TypedDict, total=False):
     outer_u95_deg: float
 
 
+class ColorMeter(TypedDict):
+    """The one named instrument that read a colour; 1 sigma of what it is off by in x and in y."""
+
+    name: str
+    sigma_xy: float
+
+
 class FittedColor(TypedDict, total=False):
     """CIE 1931 xy; correlated colour temperature and Duv of CIE 1960 uv."""
 
@@ -48,6 +55,7 @@ class FittedColor(TypedDict, total=False):
     duv_low95: float
     duv_high95: float
     xy: List[float]
+    meter: ColorMeter
 
 
 class Fit(TypedDict, total=False):

@@ -18,10 +18,20 @@
 
 namespace lightcal {
 
+// The one named instrument that read a colour: 1 sigma of what its x and its y are off by, alike in
+// every colour it reads.
+struct ColorMeter {
+  std::string name;
+  double sigma_xy = 0.0;
+
+  [[nodiscard]] bool operator==(const ColorMeter&) const = default;
+};
+
 struct FittedColor {
   std::optional<Uncertain> cct_K;  // absent where a CCT means nothing (|Duv| > .05 ...)
   std::optional<Uncertain> duv;
   std::optional<Xy> xy;
+  std::optional<ColorMeter> meter{};  // absent of a camera, of a nameless one, and of several
 };
 
 // Among priors, effects and causes: what a camera is off by in all its pictures.

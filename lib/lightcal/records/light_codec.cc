@@ -61,11 +61,18 @@ constexpr auto kVisitBeam = [](auto& archive, auto& beam) {
   archive.Number("falling_share", beam.falling_share, kNotNegative);
 };
 
+constexpr auto kVisitColorMeter = [](auto& archive, auto& meter) {
+  archive.Text("name", meter.name);
+  archive.Number("sigma_xy", meter.sigma_xy, kNotNegative);
+  archive.Require({"name", "sigma_xy"});
+};
+
 template <class Archive, class SomeColor>
 void VisitColor(Archive& archive, SomeColor& color) {
   archive.Object("cct_K", color.cct_K, kVisitKelvin);
   VisitDuv(archive, color.duv);
   archive.Chromaticity("xy", color.xy);
+  archive.Object("meter", color.meter, kVisitColorMeter);
 }
 
 template <class Archive, class SomeFit>

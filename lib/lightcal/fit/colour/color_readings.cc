@@ -36,6 +36,15 @@ double SigmaMired(const Reading& reading) {
   return reading.sigma_mired.value_or(Mireds(kSigmaMiredCamera)).value();
 }
 
+std::optional<ColorMeter> MeterOfColor(const Reading& reading) {
+  const std::string& name = InstrumentOf(reading);
+  if (name.empty() || name == kDataSheetMeter || reading.quality == MeterQuality::kDerived ||
+      reading.color_source == ColorSource::kCamera) {
+    return std::nullopt;
+  }
+  return ColorMeter{name, SigmaXy(reading.color_source)};
+}
+
 Estimate2 FromTemperature(const Reading& reading) {
   const bool camera = reading.color_source == ColorSource::kCamera;
   const Vector2 at(MiredsFromKelvin(*reading.cct).value(), reading.duv.value_or(0.0));
@@ -141,6 +150,7 @@ std::optional<ColorReading> Difference(const Reading& both, const Reading& other
   const double chroma = kRepeatXy * std::hypot(whole, rest) / own;
   out.own = ratio * ratio * apart * apart.transpose() + chroma * chroma * Matrix2::Identity();
   out.instrument = {both.meter, both.color_source};
+  out.meter = MeterOfColor(both);
   return out;
 }
 
@@ -228,6 +238,7 @@ std::vector<ColorReading> CollectColors(const Session& session, const LightDescr
     ColorReading one;
     one.lit = lit;
     one.instrument = {reading.meter, reading.color_source};
+    one.meter = MeterOfColor(reading);
     if (others != nullptr) one.others = others->SharesIn(row);
     if (!lit && !one.others.any()) continue;
     const Reading* card = lit && one.others.any() ? others->CardBeside(reading) : nullptr;

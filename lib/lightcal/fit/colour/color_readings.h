@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "lightcal/core/result.h"
 #include "lightcal/fit/colour/off_wall.h"
 #include "lightcal/fit/colour/other_light.h"
+#include "lightcal/records/fitted_light.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::fit {
@@ -27,6 +29,9 @@ struct ColorReading {
   Estimate2 in_xy;                // the covariance that the instrument's readings share
   Matrix2 own = Matrix2::Zero();  // and what is this one's alone
   std::pair<std::string, ColorSource> instrument;
+  // That with its name, of one that reads a lamp's own light; absent of a camera, of what a box or
+  // a data sheet says.
+  std::optional<ColorMeter> meter{};
   OtherShares others{};
   bool lit = true;  // else what is left with the lamp off or behind its card
 };

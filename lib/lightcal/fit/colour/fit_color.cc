@@ -79,6 +79,9 @@ ColorFit FitColor(const Session& session, const LightDescription& light, const O
   if (std::ranges::none_of(readings, [](const ColorReading& one) { return one.lit; })) return out;
   const SharedColor found = SolveSharedColor(readings, method);
   WarnOfDisagreement(found, light.name, warnings);
+  const bool one_meter = std::ranges::all_of(
+      readings, [&](const ColorReading& one) { return one.meter == readings.front().meter; });
+  if (one_meter) out.color.meter = readings.front().meter;
   Estimate2 color = found.color;
   if (!found.in_mired) {
     const Vector2 xy = color.mean;

@@ -41,8 +41,9 @@ struct ColorFit {
 // Walls and ambient light tint what a meter sees: `others` (null: nothing but the lamp shone) says
 // how much of each reading they are, and readings at several distances, behind the card or with the
 // lamp off tell how (shared_color.h). `off_wall`: what a camera saw besides, on a wall. Where a
-// chromaticity has no CCT that is withheld with the warning cct_withheld. Empty when no reading of
-// the lamp holds colour.
+// chromaticity has no CCT that is withheld with the warning cct_withheld. FittedColor::meter has the
+// sigma of its kind, what it repeats within included. Empty when no reading of the lamp holds
+// colour.
 [[nodiscard]] ColorFit FitColor(const Session& session, const LightDescription& light,
                                 const OtherLight* others, Warnings& warnings,
                                 CctMethod method = CctMethod::kExact,

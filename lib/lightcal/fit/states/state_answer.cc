@@ -29,9 +29,6 @@ using fit::Scaled;
 using fit::SdOfLn;
 using fit::States;
 
-// A meter repeats a colour within this, 1 sigma; what its readings share is added afterwards.
-constexpr double kRepeatsLnMired = 0.001;
-constexpr double kRepeatsDuv = 2e-4;
 constexpr double kLeastRepeatability = 1e-4;
 
 const ControlCurve& LightCurve(const States& states, KnownCurves& curves) {
@@ -85,6 +82,13 @@ double SharedSd(double sd, double repeatability) {
   return std::sqrt(std::max(0.0, sd * sd - repeatability * repeatability));
 }
 
+// Of ln of a state's light, 1 sigma: its part of the reference without what that has of its own.
+double OwnOfLight(const FittedLight& light, const MeasuredState& read) {
+  const MeasuredState& reference = light.states.front();
+  const double sd = &read == &reference ? 0.0 : SdOfLn(read.relative);
+  return std::max(read.repeatability, SharedSd(sd, reference.repeatability));
+}
+
 struct SharedColor {
   double ln_mired = 0.0;
   double sd_ln_mired = 0.0, sd_duv = 0.0;
@@ -102,11 +106,13 @@ SharedColor SharedAt(std::vector<SharedColor> read, double ln_mired) {
           a.sd_duv + share * (above->sd_duv - a.sd_duv)};
 }
 
-FittedColor ColorBetween(const States& states, const FixtureState& at, KnownCurves& curves) {
+FittedColor ColorBetween(const States& states, const FixtureState& at, KnownCurves& curves,
+                         OwnErrors& own) {
   std::vector<CurvePoint> mireds;
   std::vector<CurvePoint> duvs;
   std::vector<Xy> xys;
   std::vector<SharedColor> shared;
+  std::vector<std::optional<ColorMeter>> meters;
   for (const MeasuredState* one : states.kept()) {
     const FittedColor& color = one->color;
     if (!color.cct_K || !color.duv || !color.xy) continue;
@@ -114,6 +120,7 @@ FittedColor ColorBetween(const States& states, const FixtureState& at, KnownCurv
     mireds.push_back({labels, std::log(1e6 / color.cct_K->value), kRepeatsLnMired});
     duvs.push_back({labels, color.duv->value, kRepeatsDuv});
     xys.push_back(*color.xy);
+    meters.push_back(color.meter);
     shared.push_back({mireds.back().value, SharedSd(SdOfLn(*color.cct_K), kRepeatsLnMired),
                       SharedSd(color.duv->u95 / kZ95, kRepeatsDuv)});
   }
@@ -135,6 +142,11 @@ FittedColor ColorBetween(const States& states, const FixtureState& at, KnownCurv
   out.cct_K = UncertainFromLog(std::log(cct.value()), sd);
   out.duv = UncertainFromNormal(duv.value, std::hypot(duv.sd, meter.sd_duv));
   out.xy = XyFromCct(cct, duv.value);
+  const bool one_meter = std::ranges::count(meters, meters.front()) == std::ssize(meters);
+  if (one_meter) out.meter = meters.front();
+  // What several meters are off by is no state's and no lamp's.
+  own.ln_mired = one_meter ? ln_mired.sd : sd;
+  own.duv = one_meter ? duv.sd : std::hypot(duv.sd, meter.sd_duv);
   return out;
 }
 
@@ -207,6 +219,7 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
     answer.intensity_cd = read->intensity_cd;
     answer.illuminance_lx = read->illuminance_lx;
     answer.color = read->color;
+    answer.own = {OwnOfLight(light, *read), kRepeatsLnMired, kRepeatsDuv};
     fit::AddSpectrumRead(light, *read, answer);
     const double sd = std::hypot(std::hypot(read->repeatability, full->repeatability),
                                  PredictedApart(*read, *full));
@@ -240,6 +253,7 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
     answer.intensity_cd = read->intensity_cd;
     answer.illuminance_lx = read->illuminance_lx;
     answer.color = read->color;
+    answer.own = {OwnOfLight(light, *read), kRepeatsLnMired, kRepeatsDuv};
     fit::AddSpectrumRead(light, *read, answer);
     return answer;
   }
@@ -249,7 +263,8 @@ Result<StateAnswer> AnswerFrom(const FittedLight& light, const FixtureState& at,
   answer.relative = UncertainFromLog(light_there.value, sd);
   answer.intensity_cd = Scaled(light.intensity_cd, light_there.value, sd);
   answer.illuminance_lx = Scaled(light.illuminance_lx, light_there.value, sd);
-  answer.color = ColorBetween(states, at, curves);
+  answer.own.ln_light = sd;
+  answer.color = ColorBetween(states, at, curves, answer.own);
   fit::AddSpectrumBetween(light, MixturesAround(states), answer);
   return answer;
 }

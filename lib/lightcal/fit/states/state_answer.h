@@ -28,6 +28,17 @@ struct StateSpectrum {
   std::vector<double> shares;  // of its light, one of each of the lamp's emitters; or empty
 };
 
+// A meter repeats a colour within this, 1 sigma; what its readings share comes on top.
+inline constexpr double kRepeatsLnMired = 0.001;
+inline constexpr double kRepeatsDuv = 2e-4;
+
+// Of an answer's uncertainty, 1 sigma, what no other state of the lamp has: how its meter repeats,
+// and between states what lies there. The rest (the meter's own error, walls, the reference) is in
+// every state alike, so that it is in no difference of two.
+struct OwnErrors {
+  double ln_light = 0.0, ln_mired = 0.0, duv = 0.0;
+};
+
 struct StateAnswer {
   FixtureState state;
   StateBasis basis = StateBasis::kMeasured;
@@ -38,6 +49,7 @@ struct StateAnswer {
   FixtureState full;
   Uncertain relative_to_full;
   FittedColor color;
+  OwnErrors own{};
   // As it was read, or what its emitters mix; absent where nothing tells it.
   std::optional<StateSpectrum> spectrum{};
   std::optional<double> promised_of_full;  // by the label: dimmer/100
