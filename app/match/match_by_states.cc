@@ -6,14 +6,13 @@
 
 #include "calibration_options.h"
 #include "lamp_state.h"
-#include "lamp_words.h"
 #include "lightcal/calibrate/states/match_states.h"
 #include "lightcal/colorimetry/cct.h"
-#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/match/match_lights.h"
 #include "lightcal/records/light_codec.h"
 #include "match/match_answer.h"
+#include "match/state_match_words.h"
 #include "output_files.h"
 #include "typed_reading.h"
 
@@ -23,46 +22,11 @@ namespace {
 // What a measured spectrum's colour repeats and agrees within, 1 sigma.
 constexpr double kSpectrumLnMired = 0.006, kSpectrumDuv = 0.0008;
 
-std::string ValueOf(const std::optional<Uncertain>& value, const std::string& unit) {
-  if (!value) return kNone;
-  if (value->low && value->high) return ValueText(*value) + unit + " (" + RangeText(*value) + ")";
-  return ValueText(*value) + unit;
-}
-
-// Hundredths: "-1.04", "0.05".
-std::string StopsOf(double stops) { return ShortestText(std::round(100.0 * stops) / 100.0 + 0.0); }
-
-// "-1.04 (-1.15 … -0.93)"
-std::string StopsRange(const Uncertain& stops) {
-  if (!stops.low || !stops.high) return StopsOf(stops.value);
-  return StopsOf(stops.value) + " (" + StopsOf(*stops.low) + " … " + StopsOf(*stops.high) + ")";
-}
-
-// "dimmer=37 ± 2.1, cct_K=4000"
-std::string SettingText(const LampSetting& setting) {
-  return Joined(setting.state, ", ", [&](const ControlValue& control) {
-    std::string text = StateText({control});
-    if (const auto u95 = NumberOfControl(setting.u95, control.name)) {
-      text += " ± " + RoundedText(*u95, 2);
-    }
-    return text;
-  });
-}
-
-std::vector<std::string> RowOfSetting(const StateMatch& match) {
-  const LampSetting& setting = match.lamps.front();
-  return {SettingText(setting),
-          std::string(BasisWord(setting.basis)),
-          RoundedText(match.delta_uv.value, 2),
-          ValueOf(match.cct_K, " K"),
-          match.duv ? DuvText(match.duv->value) + " ± " + RoundedText(match.duv->u95, 2) : kNone,
-          match.stops_lost ? StopsOf(*match.stops_lost) : kNone,
-          match.dimmer_stops ? StopsRange(*match.dimmer_stops) : kNone};
-}
-
 Result<LightPoint> PointOfMatchLight(const MatchLight& light, double sigma) {
   if (light.light && light.spectrum.values.empty()) {
-    if (auto point = PointOf(*light.light)) return *point;
+    auto point = light.at ? PointOf(*light.light, light.session, *light.at)
+                          : PointOf(*light.light, light.session);
+    if (point) return *std::move(point);
     return Refused("no_color", light.title,
                    "no colour of it is known; give its readings xy or cct_K, or its --spectrum");
   }
@@ -71,19 +35,19 @@ Result<LightPoint> PointOfMatchLight(const MatchLight& light, double sigma) {
   LightPoint point;
   point.xy = XyFromXyz(*xyz);
   if (light.measured) {
-    point.sd_ln_mired = kSpectrumLnMired;
-    point.sd_duv = kSpectrumDuv;
+    point.sd.ln_mired = kSpectrumLnMired;
+    point.sd.duv = kSpectrumDuv;
   }
   if (light.spectrum.quantity == SpectralQuantity::kIrradiance) {
     point.kind = LevelKind::kIlluminance;
     point.level = xyz->Y;
-    point.sd_ln_level = light.measured ? sigma : 0.0;
+    point.sd.ln_level = light.measured ? sigma : 0.0;
   }
   return point;
 }
 
 SettableLamp SettableOf(const MatchLight& light, const LightPoint& fixed) {
-  return {light.title, IsSetByStates(light) ? &*light.light : nullptr, fixed};
+  return {light.title, IsSetByStates(light) ? &*light.light : nullptr, fixed, light.session};
 }
 
 Node LampSettingNode(const LampSetting& setting) {
@@ -105,10 +69,18 @@ Node StateMatchNode(const StateMatch& match) {
   node.Put("delta_uv", match.delta_uv.value);
   if (match.cct_K) node.Put("cct_K", match.cct_K->value);
   if (match.duv) node.Put("duv", match.duv->value);
+  if (match.delta_cct_K) node.Put("delta_cct_K", match.delta_cct_K->value);
+  if (match.delta_duv) node.Put("delta_duv", match.delta_duv->value);
   if (match.dimmer_stops) node.Put("dimmer_stops", match.dimmer_stops->value);
   node.Put("stops_lost", Node(match.stops_lost));
+  const auto told = [](bool cancels) { return cancels ? "cancels" : "counts"; };
+  Node common = {{"color", told(match.color_cancels)}};
+  if (match.dimmer_stops) common.Put("light", told(match.level_cancels));
+  node.Put("common_error", std::move(common));
   IntervalTables tables;
   tables.Put("delta_uv", match.delta_uv);
+  tables.Put("delta_cct_K", match.delta_cct_K);
+  tables.Put("delta_duv", match.delta_duv);
   tables.Put("cct_K", match.cct_K);
   tables.Put("duv", match.duv);
   tables.Put("dimmer_stops", match.dimmer_stops);
@@ -116,30 +88,6 @@ Node StateMatchNode(const StateMatch& match) {
   node.Put("low95", std::move(tables.low));
   node.Put("high95", std::move(tables.high));
   return node;
-}
-
-std::string StateMatchTable(const std::vector<StateMatch>& matches, const StateMatch& unfiltered) {
-  std::vector<std::vector<std::string>> rows;
-  for (const StateMatch& each : matches) rows.push_back(RowOfSetting(each));
-  rows.push_back(RowOfSetting(unfiltered));
-  rows.back().front() += " (as it is)";
-  return TextTable({"set", "was", "Δu'v'", "CCT", "Duv", "stops lost", "over target, stops"}, rows);
-}
-
-std::string StateMixText(const StateMatch& mix, const std::vector<std::string>& names) {
-  std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < mix.lamps.size(); ++i) {
-    const LampSetting& one = mix.lamps[i];
-    const std::string unit = one.point.kind == LevelKind::kIntensity ? " cd" : " lx";
-    rows.push_back({names[i], SettingText(one), std::string(BasisWord(one.basis)),
-                    RoundedText(one.point.level, 3) + unit});
-  }
-  std::string text = TextTable({"lamp", "set", "was", "gives"}, rows) + "\ntogether ";
-  text += ValueOf(mix.cct_K, " K");
-  if (mix.duv) text += ", Duv " + DuvText(mix.duv->value);
-  text += ", Δu'v' " + RoundedText(mix.delta_uv.value, 2) + " from the target";
-  if (mix.dimmer_stops) text += ", " + StopsRange(*mix.dimmer_stops) + " stops" + " over it";
-  return text + "\n";
 }
 
 Result<StateMatchRequest> StateRequestOf(const StateMatchWords& o, const MatchLight& target) {
@@ -216,9 +164,9 @@ Result<void> SetMatchState(const std::string& text, MatchLight& light) {
   if (!light.light) {
     return WrongUsage("--to-state", "the target is no light.json or session with states");
   }
-  auto there = LightAtState(*light.light, *state);
+  auto there = AnswerState(*light.light, *state);
   if (!there) return Propagate(std::move(there));
-  light.light = *std::move(there);
+  light.at = *std::move(there);
   light.title += " at " + StateText(*state);
   return {};
 }
@@ -236,11 +184,14 @@ Result<void> RunMatchByStates(const StateMatchWords& o, const MatchLight& lamp,
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(*files, o.force); !written) return written;
   console.Print(lamp.title + " to " + target.title + " by its own controls, in colour alone\n\n" +
-                StateMatchTable(answer->matches, answer->unfiltered));
+                StateMatchTable(*answer) + "\n" +
+                DifferenceText(answer->matches.front(), request->target, target.title) +
+                SameCctText(answer->matches.front(), answer->same_cct, request->target));
   Node document = {{"lamp", PointNode(lamp.title, answer->unfiltered.point)},
                    {"target", PointNode(target.title, request->target)},
                    {"matches", Node::List(answer->matches, StateMatchNode)},
                    {"unfiltered", StateMatchNode(answer->unfiltered)}};
+  if (answer->same_cct) document.Put("same_cct", StateMatchNode(*answer->same_cct));
   if (!files->empty()) document.Put("files", PathsOf(*files));
   console.PrintDocument(std::move(document));
   for (const OutputFile& file : *files) console.Note("wrote " + file.path);
@@ -253,23 +204,32 @@ Result<void> RunMixByStates(const StateMatchWords& o, const MatchLight& lamp,
   if (!request) return tl::unexpected(request.error());
   std::vector<SettableLamp> lamps;
   for (const MatchLight* one : {&lamp, &with}) {
-    const auto point = PointOfMatchLight(*one, request->target.sd_ln_level);
+    const auto point = PointOfMatchLight(*one, request->target.sd.ln_level);
     if (!point) return tl::unexpected(point.error());
     lamps.push_back(SettableOf(*one, *point));
   }
   const auto mix = MixStates(lamps[0], lamps[1], *request);
   if (!mix) return tl::unexpected(mix.error());
-  WarnOfLevel(*mix, lamp.title + " with " + with.title, console);
-  WarnOfCombined(*mix, {&lamp, &with}, console);
+  const StateMatch& nearest = mix->nearest;
+  WarnOfLevel(nearest, lamp.title + " with " + with.title, console);
+  WarnOfCombined(nearest, {&lamp, &with}, console);
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
-  console.Print(StateMixText(*mix, {lamp.title, with.title}));
-  console.PrintDocument(
-      {{"lamp", lamp.title},
-       {"with", with.title},
-       {"target", PointNode(target.title, request->target)},
-       {"settings",
-        {{"lamp", LampSettingNode(mix->lamps[0])}, {"with", LampSettingNode(mix->lamps[1])}}},
-       {"mixed", StateMatchNode(*mix)}});
+  console.Print(StateMixText(nearest, {lamp.title, with.title}) +
+                DifferenceText(nearest, request->target, target.title) +
+                SameCctText(nearest, mix->same_cct, request->target));
+  const auto settings = [](const StateMatch& match) -> Node {
+    return {{"lamp", LampSettingNode(match.lamps[0])}, {"with", LampSettingNode(match.lamps[1])}};
+  };
+  Node document = {{"lamp", lamp.title},
+                   {"with", with.title},
+                   {"target", PointNode(target.title, request->target)},
+                   {"settings", settings(nearest)},
+                   {"mixed", StateMatchNode(nearest)}};
+  if (mix->same_cct) {
+    document.Put("same_cct", {{"settings", settings(*mix->same_cct)},
+                              {"mixed", StateMatchNode(*mix->same_cct)}});
+  }
+  console.PrintDocument(std::move(document));
   return {};
 }
 

@@ -179,6 +179,8 @@ Result<MatchLight> FromLights(const LightFile& file, const MatchLightWords& word
   made.title = (*light)->name;
   made.light = **light;
   made.inputs = file.provenance.inputs;
+  for (const InputFile& one : made.inputs) made.session += one.sha256;
+  if (made.session.empty()) made.session = words.source;
   return made;
 }
 

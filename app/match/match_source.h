@@ -9,6 +9,7 @@
 #include "console.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/result.h"
+#include "lightcal/fit/states/state_answer.h"
 #include "lightcal/records/camera_sensitivities.h"
 #include "lightcal/records/fitted_light.h"
 #include "lightcal/records/gel.h"
@@ -22,6 +23,8 @@ struct MatchLight {
   bool measured = true;              // false: an illuminant by definition
   std::optional<FittedLight> light;  // of a light.json or a session
   std::vector<InputFile> inputs;
+  std::string session{};            // tells its lights from another fit's of the same names
+  std::optional<StateAnswer> at{};  // the state of its controls that is meant
 };
 
 // What beside the source may be typed of it.

@@ -9,6 +9,7 @@
 
 #include "lightcal/calibrate/states/settable_lamp.h"
 #include "lightcal/calibrate/states/setting_intervals.h"
+#include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 
@@ -16,6 +17,7 @@ namespace lightcal {
 namespace {
 
 constexpr double kUnnoticedUv = 0.0005;
+constexpr double kNoticedUv = 0.001;
 constexpr double kUnnoticedStops = 0.05;
 constexpr int kHalvings = 8;
 constexpr int kMostMoves = 120;
@@ -30,16 +32,31 @@ Cost ColorCost(const LightPoint& target) {
       [&target](const LightPoint& point) { return UvBetween(point.xy, target.xy) / kUnnoticedUv; };
 }
 
-// Light, within what nobody tells apart of the nearest colour.
-Cost LightCost(const LightPoint& target, double nearest_uv) {
-  return [&target, nearest_uv](const LightPoint& point) {
-    const double beyond = std::max(0.0, UvBetween(point.xy, target.xy) - nearest_uv - kUnnoticedUv);
+// How far along the locus from the target's CCT; of those as far the nearest colour.
+Cost CctCost(const LightPoint& target) {
+  return [&target, duv = CctFromXy(target.xy).duv](const LightPoint& point) {
+    const CctResult cct = CctFromXy(point.xy);
+    if (!cct.valid()) return kFar;
+    const double along = UvBetween(XyFromCct(cct.temperature, duv), target.xy);
+    return (along + 0.01 * UvBetween(point.xy, target.xy)) / kUnnoticedUv;
+  };
+}
+
+// Light, among the colours that nobody tells apart from the nearest one; where that is no farther
+// from the target, among those as near to the target. (Not so for one farther: a lamp whose colours
+// pass the target at a distance d would go sqrt(2 d kUnnoticedUv) along them for light, 0.003 of
+// d = 0.01.)
+Cost LightCost(const LightPoint& target, Xy nearest, const Cost& color) {
+  const double off = UvBetween(nearest, target.xy);
+  return [&target, &color, nearest, off](const LightPoint& point) {
+    const double from =
+        off <= kUnnoticedUv ? UvBetween(point.xy, target.xy) - off : UvBetween(point.xy, nearest);
+    const double beyond = std::max(0.0, from - kUnnoticedUv);
     const auto stops = StopsOver(point, target);
     const double light = stops               ? std::abs(*stops)
                          : point.level > 0.0 ? 100.0 - std::log2(point.level)
                                              : 1000.0;
-    return light + 0.01 * UvBetween(point.xy, target.xy) / kUnnoticedUv +
-           1e4 * beyond / kUnnoticedUv;
+    return light + 0.01 * color(point) + 1e4 * beyond / kUnnoticedUv;
   };
 }
 
@@ -190,11 +207,41 @@ Settings Rounded(const Lamps& lamps, const Settings& settings) {
   return SettingsAt(lamps, states).value_or(settings);
 }
 
-Settings Nearest(const Lamps& lamps, const LightPoint& target) {
-  const Cost color = ColorCost(target);
+// Of a lamp that is matched to itself.
+std::optional<Settings> StateOfTarget(const Lamps& lamps, const LightPoint& target) {
+  const bool same = lamps.size() == 1 && !target.lamp.empty() &&
+                    lamps.front()->read().front().point.lamp == target.lamp;
+  return same ? SettingsAt(lamps, {target.state}) : std::nullopt;
+}
+
+Settings Nearest(const Lamps& lamps, const LightPoint& target, const Cost& color) {
+  if (auto own = StateOfTarget(lamps, target)) return *std::move(own);
   const Found nearest = LeastOf(lamps, {BestCandidate(lamps, color)}, color);
-  const Cost light = LightCost(target, nearest.cost * kUnnoticedUv);
+  const Cost light = LightCost(target, SumOf(nearest.settings).xy, color);
   return Rounded(lamps, LeastOf(lamps, {nearest, BestCandidate(lamps, light)}, light).settings);
+}
+
+StateMatch NearestMatch(const Lamps& lamps, const StateMatchRequest& request) {
+  StateMatch best =
+      DescribedMatch(Nearest(lamps, request.target, ColorCost(request.target)), request);
+  SetLabelIntervals(lamps, request.target, best);
+  return best;
+}
+
+// Where the lamps have the target's CCT, if the nearest colour is seen to have another.
+std::optional<StateMatch> SameCctMatch(const Lamps& lamps, const StateMatchRequest& request,
+                                       const StateMatch& best) {
+  const CctResult wanted = CctFromXy(request.target.xy);
+  if (!wanted.valid() || !best.cct_K) return std::nullopt;
+  const auto off = [&](const StateMatch& match) {
+    return UvBetween(XyFromCct(Kelvin(match.cct_K->value), wanted.duv), request.target.xy);
+  };
+  if (off(best) <= kNoticedUv) return std::nullopt;
+  StateMatch same =
+      DescribedMatch(Nearest(lamps, request.target, CctCost(request.target)), request);
+  if (!same.cct_K || off(same) > kUnnoticedUv) return std::nullopt;
+  SetLabelIntervals(lamps, request.target, same);
+  return same;
 }
 
 tl::unexpected<Error> NoColor(const std::string& name) {
@@ -226,14 +273,14 @@ Result<StateMatches> MatchStates(const SettableLamp& lamp, const StateMatchReque
   if (settings.read().empty()) return NoColor(lamp.name);
   const Lamps lamps = {&settings};
   StateMatches answer;
-  StateMatch best = DescribedMatch(Nearest(lamps, request.target), request);
+  StateMatch best = NearestMatch(lamps, request);
   if (best.delta_uv.value > request.reach) {
     return Refused("unreachable", "target",
                    "no setting of " + lamp.name + " between those that were read comes within " +
                        RoundedText(request.reach, 2) + " of it in u'v'; the nearest, " +
                        ToldPoint(best) + "; gel it, mix it with another lamp, or {match.reach}");
   }
-  SetLabelIntervals(lamps, request.target, best);
+  answer.same_cct = SameCctMatch(lamps, request, best);
   answer.matches.push_back(std::move(best));
   std::vector<StateMatch> read;
   for (const LampSetting& one : settings.read()) read.push_back(DescribedMatch({one}, request));
@@ -257,8 +304,8 @@ Result<StateMatches> MatchStates(const SettableLamp& lamp, const StateMatchReque
   return answer;
 }
 
-Result<StateMatch> MixStates(const SettableLamp& lamp, const SettableLamp& with,
-                             const StateMatchRequest& request) {
+Result<StateMix> MixStates(const SettableLamp& lamp, const SettableLamp& with,
+                           const StateMatchRequest& request) {
   const LampSettings first(lamp);
   const LampSettings second(with);
   const Lamps lamps = {&first, &second};
@@ -271,14 +318,14 @@ Result<StateMatch> MixStates(const SettableLamp& lamp, const SettableLamp& with,
                    "how much each lamp gives must be known of both in one unit, in candela or in "
                    "lux where the meter stood, to add them");
   }
-  StateMatch mix = DescribedMatch(Nearest(lamps, request.target), request);
-  if (mix.delta_uv.value > request.reach) {
+  StateMix mix = {NearestMatch(lamps, request), std::nullopt};
+  if (mix.nearest.delta_uv.value > request.reach) {
     return Refused("unreachable", "target",
                    "no two settings of " + lamp.name + " and " + with.name +
-                       " add up to it: the nearest, " + ToldPoint(mix) +
+                       " add up to it: the nearest, " + ToldPoint(mix.nearest) +
                        "; gel one of them first, take another lamp, or {match.reach}");
   }
-  SetLabelIntervals(lamps, request.target, mix);
+  mix.same_cct = SameCctMatch(lamps, request, mix.nearest);
   return mix;
 }
 

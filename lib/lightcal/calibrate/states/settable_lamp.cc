@@ -17,14 +17,17 @@ constexpr std::array<int, 4> kGridPoints = {0, 17, 8, 4};
 constexpr double kDimmerStep = 0.1, kKelvinStep = 1.0, kOtherSteps = 1000.0;
 constexpr double kFullDimmer = 100.0;
 
-std::optional<LightPoint> PointFrom(const FittedColor& color,
+std::optional<LightPoint> PointFrom(const FittedLight& light, const std::string& session,
+                                    const FittedColor& color,
                                     const std::optional<Uncertain>& intensity_cd,
                                     const std::optional<Uncertain>& illuminance_lx) {
   if (!color.xy) return std::nullopt;
   LightPoint point;
   point.xy = *color.xy;
-  if (color.cct_K) point.sd_ln_mired = fit::SdOfLn(*color.cct_K);
-  if (color.duv) point.sd_duv = color.duv->u95 / kZ95;
+  point.color_meter = color.meter;
+  if (color.cct_K) point.sd.ln_mired = fit::SdOfLn(*color.cct_K);
+  if (color.duv) point.sd.duv = color.duv->u95 / kZ95;
+  point.own = {std::min(kRepeatsLnMired, point.sd.ln_mired), std::min(kRepeatsDuv, point.sd.duv)};
   const Uncertain* level = nullptr;
   if (intensity_cd) {
     level = &*intensity_cd;
@@ -35,7 +38,10 @@ std::optional<LightPoint> PointFrom(const FittedColor& color,
   }
   if (level != nullptr && level->value > 0.0) {
     point.level = level->value;
-    point.sd_ln_level = fit::SdOfLn(*level);
+    point.sd.ln_level = fit::SdOfLn(*level);
+    point.level_meter = light.meter;
+    // Nobody's name is one meter's among the lights of one fit.
+    if (light.meter && light.meter->name.empty()) point.level_meter->name = session + "/";
   } else {
     point.kind = LevelKind::kNone;
   }
@@ -76,8 +82,31 @@ std::optional<double> StopsOver(const LightPoint& point, const LightPoint& targe
   return std::log2(point.level / target.level);
 }
 
-std::optional<LightPoint> PointOf(const FittedLight& light) {
-  return PointFrom(light.color, light.intensity_cd, light.illuminance_lx);
+std::optional<LightPoint> PointOf(const FittedLight& light, const std::string& session) {
+  if (!light.states.empty()) {
+    if (const auto there = AnswerState(light, light.state)) return PointOf(light, session, *there);
+  }
+  return PointFrom(light, session, light.color, light.intensity_cd, light.illuminance_lx);
+}
+
+std::optional<LightPoint> PointOf(const FittedLight& light, const std::string& session,
+                                  const StateAnswer& there) {
+  auto point = PointFrom(light, session, there.color, there.intensity_cd, there.illuminance_lx);
+  if (!point) return std::nullopt;
+  point->own = {there.own.ln_mired, there.own.duv, there.own.ln_light};
+  point->lamp = session + "/" + light.name;
+  point->state = there.state;
+  // A state is the reference times what its own readings are of the reference's: how these repeat
+  // is in both factors, and in their product not at all.
+  const std::optional<Uncertain>& reference =
+      point->kind == LevelKind::kIntensity ? light.intensity_cd : light.illuminance_lx;
+  if (point->kind != LevelKind::kNone && reference) {
+    const double repeats = light.states.front().repeatability;
+    const double sd = fit::SdOfLn(*reference);
+    point->sd.ln_level =
+        std::hypot(point->own.ln_level, std::sqrt(std::max(0.0, sd * sd - repeats * repeats)));
+  }
+  return point;
 }
 
 LampSettings::LampSettings(const SettableLamp& lamp) : lamp_(lamp) {
@@ -115,10 +144,10 @@ std::optional<LampSetting> LampSettings::At(const FixtureState& state) const {
   }
   const auto answer = AnswerState(*lamp_.light, state);
   if (!answer) return std::nullopt;
-  const auto point = PointFrom(answer->color, answer->intensity_cd, answer->illuminance_lx);
+  auto point = PointOf(*lamp_.light, lamp_.session, *answer);
   if (!point) return std::nullopt;
   setting.basis = answer->basis;
-  setting.point = *point;
+  setting.point = *std::move(point);
   setting.relative = answer->relative.value;
   return setting;
 }

@@ -40,7 +40,7 @@ using Settings = std::vector<LampSetting>;  // one a lamp
 
 // Distance of two colours in CIE 1976 u'v'.
 [[nodiscard]] double UvBetween(Xy a, Xy b);
-// All lamps together; of one without a level its colour.
+// All lamps together, without their errors; of one without a level its colour.
 [[nodiscard]] LightPoint SumOf(const Settings& settings);
 // log2 of its level over the target's; absent where they are not of one kind.
 [[nodiscard]] std::optional<double> StopsOver(const LightPoint& point, const LightPoint& target);

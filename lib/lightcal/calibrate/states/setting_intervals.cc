@@ -5,11 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <utility>
 
+#include "lightcal/calibrate/states/common_errors.h"
 #include "lightcal/colorimetry/cct.h"
-#include "lightcal/core/standard_normal.h"
 #include "lightcal/core/statistics.h"
 #include "lightcal/core/uncertain.h"
 
@@ -18,22 +17,6 @@ namespace {
 
 constexpr std::uint64_t kStateMatchSeed = 20260123;
 
-LightPoint Drawn(const LightPoint& point, std::mt19937_64& random) {
-  StandardNormal normal;
-  const double mired = normal(random) * point.sd_ln_mired;
-  const double duv = normal(random) * point.sd_duv;
-  const double across = normal(random) * point.sd_duv;
-  LightPoint drawn = point;
-  drawn.level *= std::exp(point.sd_ln_level * normal(random));
-  if (const CctResult cct = CctFromXy(point.xy); cct.valid()) {
-    drawn.xy = XyFromCct(Kelvin(cct.temperature.value() * std::exp(mired)), cct.duv + duv);
-  } else {
-    const Uv1960 uv = Uv1960FromXy(point.xy);
-    drawn.xy = XyFromUv1960({uv.u + across, uv.v + duv});
-  }
-  return drawn;
-}
-
 Uncertain DrawnInterval(double value, std::vector<double> drawn) {
   if (drawn.size() < 40) return {value, 0.0, {}, {}};
   const double low = std::min(value, Quantile(drawn, 0.025));
@@ -41,10 +24,30 @@ Uncertain DrawnInterval(double value, std::vector<double> drawn) {
   return {value, (high - low) / 2.0, low, high};
 }
 
-// Outcomes of a setting beside their 1 sigma: u', v' and, where it is compared, ln of the light.
+Uv1976 UvStep(Xy from, Xy to) {
+  const Uv1976 a = Uv1976FromXy(from);
+  const Uv1976 b = Uv1976FromXy(to);
+  return {b.u - a.u, b.v - a.v};
+}
+
+// Of how far apart two colours are. Noise makes a distance longer and never shorter than 0, so that
+// its least is by what is drawn along the way from one to the other, which may be of either sign.
+Uncertain DistanceInterval(Uv1976 found, const std::vector<Uv1976>& drawn) {
+  const double distance = std::hypot(found.u, found.v);
+  std::vector<double> along, whole;
+  for (const Uv1976& one : drawn) {
+    whole.push_back(std::hypot(one.u, one.v));
+    along.push_back(distance > 0.0 ? (one.u * found.u + one.v * found.v) / distance : 0.0);
+  }
+  if (drawn.size() < 40) return {distance, 0.0, {}, {}};
+  const double low = std::clamp(Quantile(along, 0.025), 0.0, distance);
+  const double high = std::max(distance, Quantile(whole, 0.975));
+  return {distance, (high - low) / 2.0, low, high};
+}
+
+// Outcomes of a setting: u', v' and, where it is compared, ln of the light.
 struct Outcomes {
   std::array<double, 3> value{};
-  std::array<double, 3> sd{};
   int count = 2;
 };
 
@@ -52,17 +55,27 @@ Outcomes OutcomesOf(const LightPoint& point, const LightPoint& target) {
   const Uv1976 uv = Uv1976FromXy(point.xy);
   Outcomes out;
   out.value = {uv.u, uv.v, point.level > 0.0 ? std::log(point.level) : 0.0};
-  // A mired's step along the locus and a Duv's across it, taken alike in u' and v'.
-  const CctResult cct = CctFromXy(point.xy);
-  const auto sd_of = [&](const LightPoint& one) {
-    if (!cct.valid()) return 1.5 * one.sd_duv;
-    const Xy moved = XyFromCct(Kelvin(cct.temperature.value() * (1.0 + one.sd_ln_mired)), cct.duv);
-    return std::hypot(UvBetween(moved, point.xy), one.sd_duv);
-  };
-  const double sd = std::max(1e-5, std::hypot(sd_of(point), sd_of(target)));
-  out.sd = {sd, sd, std::max(1e-5, std::hypot(point.sd_ln_level, target.sd_ln_level))};
   if (StopsOver(point, target)) out.count = 3;
   return out;
+}
+
+// 1 sigma of the outcomes beside the target's, of several lamps the worst.
+std::array<double, 3> SdOfOutcomes(const StateMatch& match, const LightPoint& target) {
+  LightErrors apart;
+  for (const LampSetting& one : match.lamps) {
+    const LightErrors errors = ErrorsApart(one.point, target);
+    apart.ln_mired = std::max(apart.ln_mired, errors.ln_mired);
+    apart.duv = std::max(apart.duv, errors.duv);
+    apart.ln_level = std::max(apart.ln_level, errors.ln_level);
+  }
+  // A mired's step along the locus and a Duv's across it, taken alike in u' and v'.
+  double sd = 1.5 * apart.duv;
+  if (const CctResult cct = CctFromXy(match.point.xy); cct.valid()) {
+    const Xy moved = XyFromCct(Kelvin(cct.temperature.value() * (1.0 + apart.ln_mired)), cct.duv);
+    sd = std::hypot(UvBetween(moved, match.point.xy), apart.duv);
+  }
+  sd = std::max(1e-5, sd);
+  return {sd, sd, std::max(1e-5, apart.ln_level)};
 }
 
 // The inverse, in place; false where there is none.
@@ -132,27 +145,43 @@ std::optional<Slope> SlopeAlong(const Lamps& lamps, const Settings& settings,
 StateMatch DescribedMatch(Settings settings, const StateMatchRequest& request) {
   StateMatch match;
   match.point = SumOf(settings);
-  std::vector<double> kelvin;
-  std::vector<double> duv;
-  std::vector<double> stops;
-  std::vector<double> off;
-  std::mt19937_64 random(kStateMatchSeed);
+  std::vector<double> kelvin, duv, stops, kelvin_off, duv_off;
+  std::vector<Uv1976> off;
+  std::vector<LightPoint> points = {request.target};
+  for (const LampSetting& one : settings) points.push_back(one.point);
+  const auto with_target = [&](const auto& same) {
+    return std::all_of(points.begin() + 1, points.end(),
+                       [&](const LightPoint& one) { return same(one, request.target); });
+  };
+  match.color_cancels = with_target(ColorErrorCancels);
+  match.level_cancels = with_target(LevelErrorCancels);
+  DrawnPoints draws(std::move(points), kStateMatchSeed);
+  Settings drawn = settings;
   for (int i = 0; i < request.draws; ++i) {
-    Settings drawn = settings;
-    for (LampSetting& one : drawn) one.point = Drawn(one.point, random);
+    const std::vector<LightPoint> all = draws.Next();
+    const LightPoint& target = all.front();
+    for (std::size_t k = 0; k < drawn.size(); ++k) drawn[k].point = all[k + 1];
     const LightPoint sum = SumOf(drawn);
-    const LightPoint target = Drawn(request.target, random);
-    off.push_back(UvBetween(sum.xy, target.xy));
+    off.push_back(UvStep(target.xy, sum.xy));
     if (const auto over = StopsOver(sum, target)) stops.push_back(*over);
-    if (const CctResult cct = CctFromXy(sum.xy); cct.valid()) {
-      kelvin.push_back(cct.temperature.value());
-      duv.push_back(cct.duv);
-    }
+    const CctResult cct = CctFromXy(sum.xy);
+    if (!cct.valid()) continue;
+    kelvin.push_back(cct.temperature.value());
+    duv.push_back(cct.duv);
+    const CctResult wanted = CctFromXy(target.xy);
+    if (!wanted.valid()) continue;
+    kelvin_off.push_back(cct.temperature.value() - wanted.temperature.value());
+    duv_off.push_back(cct.duv - wanted.duv);
   }
-  match.delta_uv = DrawnInterval(UvBetween(match.point.xy, request.target.xy), std::move(off));
+  match.delta_uv = DistanceInterval(UvStep(request.target.xy, match.point.xy), off);
   if (const CctResult cct = CctFromXy(match.point.xy); cct.valid()) {
     match.cct_K = DrawnInterval(cct.temperature.value(), std::move(kelvin));
     match.duv = DrawnInterval(cct.duv, std::move(duv));
+    if (const CctResult wanted = CctFromXy(request.target.xy); wanted.valid()) {
+      match.delta_cct_K = DrawnInterval(cct.temperature.value() - wanted.temperature.value(),
+                                        std::move(kelvin_off));
+      match.delta_duv = DrawnInterval(cct.duv - wanted.duv, std::move(duv_off));
+    }
   }
   if (const auto over = StopsOver(match.point, request.target)) {
     match.dimmer_stops = DrawnInterval(*over, std::move(stops));
@@ -173,20 +202,15 @@ void SetLabelIntervals(const Lamps& lamps, const LightPoint& target, StateMatch&
       slopes.push_back(*slope);
     }
   }
-  LightPoint with_sd = match.point;
-  for (const LampSetting& one : match.lamps) {
-    with_sd.sd_ln_mired = std::max(with_sd.sd_ln_mired, one.point.sd_ln_mired);
-    with_sd.sd_duv = std::max(with_sd.sd_duv, one.point.sd_duv);
-    with_sd.sd_ln_level = std::max(with_sd.sd_ln_level, one.point.sd_ln_level);
-  }
-  const Outcomes here = OutcomesOf(with_sd, target);
+  const Outcomes here = OutcomesOf(match.point, target);
+  const std::array<double, 3> sd = SdOfOutcomes(match, target);
   // More labels than outcomes: many settings give the same light, and none is to be named surer.
   if (slopes.empty() || slopes.size() > static_cast<std::size_t>(here.count)) return;
   std::vector<std::vector<double>> normal(slopes.size(), std::vector<double>(slopes.size(), 0.0));
   for (std::size_t a = 0; a < slopes.size(); ++a) {
     for (std::size_t b = 0; b < slopes.size(); ++b) {
       for (std::size_t k = 0; k < static_cast<std::size_t>(here.count); ++k) {
-        normal[a][b] += slopes[a].of[k] * slopes[b].of[k] / (here.sd[k] * here.sd[k]);
+        normal[a][b] += slopes[a].of[k] * slopes[b].of[k] / (sd[k] * sd[k]);
       }
     }
   }
