@@ -25,21 +25,27 @@ constexpr double kLeastCostGain = 2e-3;  // of a cost: 1e-6 in u'v', 0.002 stops
 constexpr double kFar = 1e9;
 
 // What a setting costs; kFar and more where it is none.
-using Cost = std::function<double(const LightPoint&)>;
+struct Cost {
+  Xy sought;  // the colour that a setting is to lie near
+  std::function<double(const LightPoint&)> of;
+
+  double operator()(const LightPoint& point) const { return of(point); }
+};
 
 Cost ColorCost(const LightPoint& target) {
-  return
-      [&target](const LightPoint& point) { return UvBetween(point.xy, target.xy) / kUnnoticedUv; };
+  return {target.xy, [&target](const LightPoint& point) {
+            return UvBetween(point.xy, target.xy) / kUnnoticedUv;
+          }};
 }
 
 // How far along the locus from the target's CCT; of those as far the nearest colour.
 Cost CctCost(const LightPoint& target) {
-  return [&target, duv = CctFromXy(target.xy).duv](const LightPoint& point) {
-    const CctResult cct = CctFromXy(point.xy);
-    if (!cct.valid()) return kFar;
-    const double along = UvBetween(XyFromCct(cct.temperature, duv), target.xy);
-    return (along + 0.01 * UvBetween(point.xy, target.xy)) / kUnnoticedUv;
-  };
+  return {target.xy, [&target, duv = CctFromXy(target.xy).duv](const LightPoint& point) {
+            const CctResult cct = CctFromXy(point.xy);
+            if (!cct.valid()) return kFar;
+            const double along = UvBetween(XyFromCct(cct.temperature, duv), target.xy);
+            return (along + 0.01 * UvBetween(point.xy, target.xy)) / kUnnoticedUv;
+          }};
 }
 
 // Light, among the colours that nobody tells apart from the nearest one; where that is no farther
@@ -48,16 +54,17 @@ Cost CctCost(const LightPoint& target) {
 // d = 0.01.)
 Cost LightCost(const LightPoint& target, Xy nearest, const Cost& color) {
   const double off = UvBetween(nearest, target.xy);
-  return [&target, &color, nearest, off](const LightPoint& point) {
-    const double from =
-        off <= kUnnoticedUv ? UvBetween(point.xy, target.xy) - off : UvBetween(point.xy, nearest);
-    const double beyond = std::max(0.0, from - kUnnoticedUv);
-    const auto stops = StopsOver(point, target);
-    const double light = stops               ? std::abs(*stops)
-                         : point.level > 0.0 ? 100.0 - std::log2(point.level)
-                                             : 1000.0;
-    return light + 0.01 * color(point) + 1e4 * beyond / kUnnoticedUv;
-  };
+  const bool met = off <= kUnnoticedUv;
+  const Xy sought = met ? target.xy : nearest;
+  const double within = kUnnoticedUv + (met ? off : 0.0);
+  return {sought, [&target, &color, sought, within](const LightPoint& point) {
+            const double beyond = std::max(0.0, UvBetween(point.xy, sought) - within);
+            const auto stops = StopsOver(point, target);
+            const double light = stops               ? std::abs(*stops)
+                                 : point.level > 0.0 ? 100.0 - std::log2(point.level)
+                                                     : 1000.0;
+            return light + 0.01 * color(point) + 1e4 * beyond / kUnnoticedUv;
+          }};
 }
 
 std::optional<Settings> SettingsAt(const Lamps& lamps, const std::vector<FixtureState>& states) {
@@ -118,9 +125,9 @@ std::optional<Settings> Turned(const Lamps& lamps, Settings settings, const Dial
   return settings;
 }
 
-// Another dial turned until the colour is `kept` again, by its slope in u'v' there.
+// Another dial turned until the colour is nearest to `wanted`, by its slope in u'v' there.
 std::optional<Settings> TurnedBack(const Lamps& lamps, const Settings& settings, const Dial& dial,
-                                   Xy kept) {
+                                   Xy wanted_xy) {
   constexpr double kPart = 0.005;
   const auto& axis = dial.axis;
   const double here = settings[dial.lamp].state[axis.control].number;
@@ -129,7 +136,7 @@ std::optional<Settings> TurnedBack(const Lamps& lamps, const Settings& settings,
   if (!beside) return std::nullopt;
   const Uv1976 from = Uv1976FromXy(SumOf(settings).xy);
   const Uv1976 to = Uv1976FromXy(SumOf(*beside).xy);
-  const Uv1976 wanted = Uv1976FromXy(kept);
+  const Uv1976 wanted = Uv1976FromXy(wanted_xy);
   const double u = (to.u - from.u) / part;
   const double v = (to.v - from.v) / part;
   const double square = u * u + v * v;
@@ -139,8 +146,9 @@ std::optional<Settings> TurnedBack(const Lamps& lamps, const Settings& settings,
 }
 
 // A setting that costs less: one dial turned by `step` of its range, or where none alone helps,
-// one turned and another turned back to the same colour. Light at a colour is a narrow valley that
-// leans across the dials wherever a dimmer moves the colour.
+// one turned and another turned back to the same colour, or to the one sought. Light at a colour is
+// a narrow valley that leans across the dials wherever a dimmer moves the colour; at the edge of
+// what is near enough the same colour is not to be had again, and one nearer to that sought may be.
 std::optional<Found> Bettered(const Lamps& lamps, const Found& from, double step,
                               const Cost& cost) {
   const std::vector<Dial> dials = DialsOf(lamps, from.settings);
@@ -159,11 +167,12 @@ std::optional<Found> Bettered(const Lamps& lamps, const Found& from, double step
       tried.emplace_back(i, *std::move(settings));
     }
   }
-  const Xy kept = SumOf(from.settings).xy;
-  for (const auto& [turned, settings] : tried) {
-    for (std::size_t i = 0; i < dials.size(); ++i) {
-      if (i == turned) continue;
-      if (auto found = better(TurnedBack(lamps, settings, dials[i], kept))) return found;
+  for (const Xy wanted : {SumOf(from.settings).xy, cost.sought}) {
+    for (const auto& [turned, settings] : tried) {
+      for (std::size_t i = 0; i < dials.size(); ++i) {
+        if (i == turned) continue;
+        if (auto found = better(TurnedBack(lamps, settings, dials[i], wanted))) return found;
+      }
     }
   }
   return std::nullopt;
@@ -224,7 +233,8 @@ Settings Nearest(const Lamps& lamps, const LightPoint& target, const Cost& color
 StateMatch NearestMatch(const Lamps& lamps, const StateMatchRequest& request) {
   StateMatch best =
       DescribedMatch(Nearest(lamps, request.target, ColorCost(request.target)), request);
-  SetLabelIntervals(lamps, request.target, best);
+  // Of a lamp that is matched to itself there is nothing that a label may be off by.
+  if (!StateOfTarget(lamps, request.target)) SetLabelIntervals(lamps, request.target, best);
   return best;
 }
 
