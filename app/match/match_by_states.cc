@@ -184,7 +184,7 @@ Result<void> RunMatchByStates(const StateMatchWords& o, const MatchLight& lamp,
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
   if (auto written = WriteOutputs(*files, o.force); !written) return written;
   console.Print(lamp.title + " to " + target.title + " by its own controls, in colour alone\n\n" +
-                StateMatchTable(*answer) + "\n" +
+                StateMatchTable(*answer) +
                 DifferenceText(answer->matches.front(), request->target, target.title) +
                 SameCctText(answer->matches.front(), answer->same_cct, request->target));
   Node document = {{"lamp", PointNode(lamp.title, answer->unfiltered.point)},

@@ -32,30 +32,33 @@ std::string ToStep(double value, double step) {
   return RoundedText(rounded, static_cast<int>(std::round(digits)));
 }
 
-// Of a difference, to what its interval leaves: "-12 K (-56 … 32)".
+// To the farther end of its interval.
+double HalfWidth(const Uncertain& value) {
+  if (!value.low || !value.high) return value.u95;
+  return std::max(*value.high - value.value, value.value - *value.low);
+}
+
+// Of a difference, to what its interval leaves: "-12 ± 44 K".
 std::string DifferenceOf(const Uncertain& value, const std::string& unit, double least_step) {
-  const double step =
-      value.u95 > 0.0 ? std::pow(10.0, std::floor(std::log10(value.u95)) - 1.0) : least_step;
+  const double u95 = HalfWidth(value);
+  const double step = u95 > 0.0 ? std::pow(10.0, std::floor(std::log10(u95)) - 1.0) : least_step;
   const auto text = [&](double one) { return ToStep(one, std::max(step, least_step)); };
-  return WithRange(text(value.value) + unit,
-                   value.low && value.high ? text(*value.low) + " … " + text(*value.high) : "");
+  return text(value.value) + (value.low && value.high ? " ± " + text(u95) : "") + unit;
 }
 
 std::string KelvinApart(const std::optional<Uncertain>& kelvin) {
   return kelvin ? DifferenceOf(*kelvin, " K", 1.0) : kNone;
 }
 
-// "0.0033 (0.0014 … 0.0061)"
+// "0.0033 ± 0.0019"
 std::string DistanceOf(const Uncertain& uv) { return DifferenceOf(uv, "", 1e-4); }
 
 // Hundredths: "-1.04", "0.05".
 std::string StopsOf(double stops) { return ShortestText(std::round(100.0 * stops) / 100.0 + 0.0); }
 
-// "-1.04 (-1.15 … -0.93)"
-std::string StopsRange(const Uncertain& stops) {
-  return WithRange(StopsOf(stops.value), stops.low && stops.high
-                                             ? StopsOf(*stops.low) + " … " + StopsOf(*stops.high)
-                                             : "");
+// "-1.04 ± 0.11"
+std::string StopsApart(const Uncertain& stops) {
+  return StopsOf(stops.value) + (stops.low && stops.high ? " ± " + StopsOf(HalfWidth(stops)) : "");
 }
 
 // "dimmer=37 ± 2.1, cct_K=4000"
@@ -69,18 +72,25 @@ std::string SettingText(const LampSetting& setting) {
   });
 }
 
+// Of the labels that have one: "dimmer ± 2.1".
+std::string LabelsOf(const LampSetting& setting) {
+  return Joined(setting.u95, ", ", [](const ControlValue& control) {
+    return control.name + " ± " + RoundedText(control.number, 2);
+  });
+}
+
 std::string KelvinOf(double kelvin) { return ShortestText(std::round(kelvin)) + " K"; }
 
 std::vector<std::string> RowOfSetting(const StateMatch& match) {
   const LampSetting& setting = match.lamps.front();
-  return {SettingText(setting),
+  return {StateText(setting.state),
           std::string(BasisWord(setting.basis)),
           DistanceOf(match.delta_uv),
           KelvinApart(match.delta_cct_K),
           match.cct_K ? KelvinOf(match.cct_K->value) : kNone,
           match.duv ? DuvText(match.duv->value) : kNone,
           match.stops_lost ? StopsOf(*match.stops_lost) : kNone,
-          match.dimmer_stops ? StopsRange(*match.dimmer_stops) : kNone};
+          match.dimmer_stops ? StopsApart(*match.dimmer_stops) : kNone};
 }
 
 bool IsExact(const LightPoint& point) {
@@ -119,9 +129,12 @@ std::string StateMatchTable(const StateMatches& answer) {
   std::vector<std::vector<std::string>> rows;
   for (const StateMatch& each : answer.matches) rows.push_back(RowOfSetting(each));
   rows.push_back(RowOfSetting(answer.unfiltered));
-  rows.back().front() += " (as it is)";
-  return TextTable(
-      {"set", "was", "Δu'v'", "ΔCCT", "CCT", "Duv", "stops lost", "over target, stops"}, rows);
+  rows.back()[1] = "as it is";
+  const std::string table =
+      TextTable({"set", "was", "Δu'v'", "ΔCCT", "CCT", "Duv", "stops lost", "stops over"}, rows);
+  const std::string labels = LabelsOf(answer.matches.front().lamps.front());
+  if (labels.empty()) return table + "\n";
+  return table + "\n" + LabelledLine("labels", "the same light may lie within " + labels);
 }
 
 std::string StateMixText(const StateMatch& mix, const std::vector<std::string>& names) {
@@ -132,13 +145,12 @@ std::string StateMixText(const StateMatch& mix, const std::vector<std::string>& 
     rows.push_back({names[i], SettingText(one), std::string(BasisWord(one.basis)),
                     RoundedText(one.point.level, 3) + unit});
   }
-  std::string text = TextTable({"lamp", "set", "was", "gives"}, rows) + "\ntogether ";
-  text += mix.cct_K ? KelvinOf(mix.cct_K->value) : kNone;
+  std::string text = mix.cct_K ? KelvinOf(mix.cct_K->value) : kNone;
   if (mix.duv) text += ", Duv " + DuvText(mix.duv->value);
   text += ", Δu'v' " + DistanceOf(mix.delta_uv) + " from the target";
   if (mix.delta_cct_K) text += ", ΔCCT " + KelvinApart(mix.delta_cct_K);
-  if (mix.dimmer_stops) text += ", " + StopsRange(*mix.dimmer_stops) + " stops over it";
-  return text + "\n";
+  if (mix.dimmer_stops) text += ", " + StopsApart(*mix.dimmer_stops) + " stops over it";
+  return TextTable({"lamp", "set", "was", "gives"}, rows) + "\n" + LabelledLine("together", text);
 }
 
 std::string DifferenceText(const StateMatch& match, const LightPoint& target,
