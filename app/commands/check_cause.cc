@@ -34,7 +34,7 @@ std::vector<std::string_view> OthersThatHold(const CalibratedSession& calibrated
     if (target->name == but.name) continue;
     const auto fresh = FreshPresetOf(*target, calibrated.lights);
     if (!fresh) continue;
-    const auto rms = RmsOf(ComparedWith(calibrated, fresh->lights));
+    const auto rms = WorstRms(ComparedWith(calibrated, fresh->lights));
     if (rms && *rms <= max_error) titles.push_back(target->title);
   }
   return titles;
@@ -85,7 +85,7 @@ std::string CauseOfStraying(std::string_view preset, const CalibratedSession& ca
   const auto fresh = target != nullptr ? FreshPresetOf(*target, calibrated.lights) : std::nullopt;
   if (!fresh) return again;
   const auto fresh_rows = ComparedWith(calibrated, fresh->lights);
-  const std::optional<double> left = RmsOf(fresh_rows);
+  const std::optional<double> left = WorstRms(fresh_rows);
   if (!left) return again;
   const bool strays = *left > max_error;
   if (!AreAlike(rows, fresh_rows)) {

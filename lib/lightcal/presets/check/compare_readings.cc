@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -205,6 +206,24 @@ std::optional<double> RmsOf(const std::vector<ComparedReading>& rows) {
     ++count;
   }
   return count > 0 ? std::optional(std::sqrt(sum / count)) : std::nullopt;
+}
+
+std::vector<LampRms> RmsByLamp(const std::vector<ComparedReading>& rows) {
+  std::vector<LampRms> lamps;
+  for (const ComparedReading& first : rows) {
+    if (std::ranges::find(lamps, first.light, &LampRms::light) != lamps.end()) continue;
+    std::vector<ComparedReading> own;
+    std::ranges::copy_if(rows, std::back_inserter(own),
+                         [&](const ComparedReading& row) { return row.light == first.light; });
+    if (const auto rms = RmsOf(own)) lamps.push_back({first.light, *rms});
+  }
+  return lamps;
+}
+
+std::optional<double> WorstRms(const std::vector<ComparedReading>& rows) {
+  const std::vector<LampRms> lamps = RmsByLamp(rows);
+  if (lamps.empty()) return std::nullopt;
+  return std::ranges::max(lamps, {}, &LampRms::rms).rms;
 }
 
 }  // namespace lightcal

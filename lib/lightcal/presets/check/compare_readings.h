@@ -49,4 +49,14 @@ using WallPart = std::function<double(const FittedLight& lamp, const ResidualRow
 // Root mean square of the used readings' errors; absent without any.
 [[nodiscard]] std::optional<double> RmsOf(const std::vector<ComparedReading>& rows);
 
+// The same of each lamp by itself, in the order of its first row: among many right ones a wrong
+// lamp is small. Without lamps that no used reading tells.
+struct LampRms {
+  std::string light;
+  double rms = 0.0;
+};
+[[nodiscard]] std::vector<LampRms> RmsByLamp(const std::vector<ComparedReading>& rows);
+// The largest of them, which RmsOf never exceeds; absent without any.
+[[nodiscard]] std::optional<double> WorstRms(const std::vector<ComparedReading>& rows);
+
 }  // namespace lightcal

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "check_preset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration_options.h"
+#include "check_cause.h"
+#include "input_files.h"
+#include "lamp_state.h"
+#include "lightcal/calibrate/wall_part.h"
+#include "lightcal/core/joined.h"
+#include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/check/compare_readings.h"
+#include "lightcal/presets/check/read_preset.h"
+#include "lightcal/presets/preset_table.h"
+#include "preset_input.h"
+
+namespace lightcal::app {
+namespace {
+
+// Nothing but rounding is left: a table shows 0.
+double BeyondRounding(double value, double of) { return std::abs(value) < 1e-7 * of ? 0.0 : value; }
+
+// What of a session a preset is held against: its lights, at states of their controls where some
+// are asked for.
+Result<void> ToStates(const PresetCheck& options, CalibratedSession& calibrated, Console& console) {
+  const std::vector<FittedLight> references = calibrated.lights.lights;
+  const auto warnings = SetStates(options.states, calibrated.lights);
+  if (!warnings) return tl::unexpected(warnings.error());
+  console.Warn(*warnings);
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    FittedLight& there = calibrated.lights.lights[i];
+    const bool asked = !references[i].states.empty() && there.states.empty();
+    if (!asked || TakeReadingsOfState(references[i], there, calibrated.session) > 0) continue;
+    return Refused("no_readings", there.name,
+                   "was not read at " + StateText(there.state) +
+                       "; check it at a state that was: " +
+                       Joined(references[i].states, ", or ",
+                              [](const MeasuredState& one) { return StateText(one.state); }));
+  }
+  return {};
+}
+
+// "" where no lamp has states that the preset may be of.
+std::string PerhapsOfAState(const PresetCheck& options, const LightFile& lights) {
+  const auto several = [](const FittedLight& light) { return light.states.size() > 1; };
+  const auto one = std::ranges::find_if(lights.lights, several);
+  if (!options.states.empty() || one == lights.lights.end()) return {};
+  return ". A preset of another state than " + StateText(one->state) +
+         " is checked with --state, as it was exported";
+}
+
+// Of a beam that was read at angles, where the engine has but a cone for it.
+std::string PerhapsACone(const ComparedReading& worst) {
+  if (worst.off_axis_deg == 0.0) return {};
+  return "That is " + RoundedText(std::abs(worst.off_axis_deg), 3) +
+         " degrees off the axis, where an engine's own cone may stray; .ies and .ldt hold the beam "
+         "itself. ";
+}
+
+// "1.00 m, 15°"
+std::string PlaceOf(const ComparedReading& row) {
+  std::string place = row.distance_m ? RoundedText(*row.distance_m, 3) + " m" : kNone;
+  if (row.off_axis_deg != 0.0) place += ", " + RoundedText(row.off_axis_deg, 3) + "°";
+  return place;
+}
+
+// The largest first.
+std::vector<LampRms> LampsOff(std::vector<LampRms> lamps, double max_error) {
+  std::erase_if(lamps, [&](const LampRms& lamp) { return lamp.rms <= max_error; });
+  std::ranges::stable_sort(lamps, std::greater<>{}, &LampRms::rms);
+  return lamps;
+}
+
+// "4.6 % (rms) off what the meter showed, of 30 lamps l07 25 %"
+std::string OffText(const std::vector<ComparedReading>& rows, const std::vector<LampRms>& lamps,
+                    double max_error) {
+  constexpr std::size_t kNamed = 5;
+  std::string text = PercentText(RmsOf(rows).value_or(0.0)) + " (rms) off what the meter showed";
+  if (lamps.size() < 2) return text;
+  std::vector<LampRms> off = LampsOff(lamps, max_error);
+  const std::size_t more = off.size() - std::min(off.size(), kNamed);
+  off.resize(off.size() - more);
+  text += ", of " + std::to_string(lamps.size()) + " lamps " +
+          Joined(off, ", ", [](const LampRms& l) { return l.light + " " + PercentText(l.rms); });
+  return more == 0 ? text : text + " and " + std::to_string(more) + " more";
+}
+
+// What the preset lacks, where that is more than it may.
+std::optional<Error> Judged(const PresetCheck& options, const CalibratedSession& calibrated,
+                            const std::vector<ComparedReading>& rows,
+                            const std::vector<std::string>& missing, double max_error) {
+  if (!missing.empty()) {
+    return Error{ErrorKind::kFailed, "missing_lights", options.file,
+                 "has no light for " + Joined(missing) + "; export it from this session"};
+  }
+  const std::vector<LampRms> lamps = RmsByLamp(rows);
+  if (LampsOff(lamps, max_error).empty()) return std::nullopt;
+  const auto worst = std::ranges::max_element(rows, {}, [](const ComparedReading& row) {
+    return row.used ? std::abs(row.Error().value_or(0.0)) : 0.0;
+  });
+  return Error{ErrorKind::kFailed, "preset_off", options.file,
+               "is " + OffText(rows, lamps, max_error) + ", more than " + PercentText(max_error) +
+                   "; most at a reading of " + worst->light + ": " +
+                   RoundedText(worst->predicted_lx, 4) + " lx instead of " +
+                   RoundedText(worst->measured_lx, 4) + " lx. " + PerhapsACone(*worst) +
+                   CauseOfStraying(options.file, calibrated, rows, max_error) +
+                   "; --max-error allows more" + PerhapsOfAState(options, calibrated.lights)};
+}
+
+}  // namespace
+
+Result<void> CheckPreset(const PresetCheck& options, Console& console) {
+  const auto max_error = ParseTolerance(options.max_error);
+  if (!max_error) return tl::unexpected(max_error.error());
+  const auto text = ReadInputFile(options.file);
+  if (!text) return tl::unexpected(text.error());
+  const auto lights = LightsOfPreset(options.file, *text, FilesBeside(options.file));
+  if (!lights) return tl::unexpected(lights.error());
+  auto calibrated = CalibrateAloud(options.session, {}, console);
+  if (!calibrated) return tl::unexpected(calibrated.error());
+  if (auto there = ToStates(options, *calibrated, console); !there) return there;
+  const auto rows = ComparedWith(*calibrated, *lights);
+  const auto missing = LampsMissing(calibrated->session, calibrated->lights, *lights);
+  const auto rms = RmsOf(rows);
+  if (!rms) {
+    return Refused("no_readings", options.session, "has no reading to check against");
+  }
+  if (std::ranges::any_of(
+          rows, [](const ComparedReading& row) { return !std::isfinite(row.predicted_lx); })) {
+    return Refused("bad_preset", options.file,
+                   "gives no finite illuminance at a reading; look at its numbers");
+  }
+  if (const PresetTarget* target = TargetOfFile(options.file);
+      target != nullptr && target->name == "blender") {
+    console.Warn(OldBlenderSpheres(calibrated->session, calibrated->lights));
+  }
+  if (auto strict = console.RefuseIfStrict(); !strict) return strict;
+  std::vector<Node> readings;
+  std::vector<std::vector<std::string>> table;
+  for (const ComparedReading& row : rows) {
+    readings.push_back(
+        {{"light", row.light},
+         {"index", row.index},
+         {"measured_lx", row.measured_lx},
+         {"walls_lx", row.walls_lx},
+         {"predicted_lx", row.predicted_lx},
+         {"used", row.used},
+         {"distance_m", row.distance_m},
+         {"off_axis_deg", row.off_axis_deg == 0.0 ? Node() : Node(row.off_axis_deg)}});
+    std::string error = kNone;
+    if (const auto relative = row.Error()) {
+      readings.back().Put("error", *relative);
+      error = PercentText(BeyondRounding(*relative, 1.0));
+    }
+    table.push_back(
+        {row.light, PlaceOf(row), RoundedText(row.measured_lx + row.walls_lx, 4) + " lx",
+         RoundedText(BeyondRounding(row.walls_lx, row.measured_lx), 3) + " lx",
+         RoundedText(row.predicted_lx, 4) + " lx", error + (row.used ? "" : " (rejected)")});
+  }
+  console.Print(TextTable({"light", "distance", "meter", "of it walls", "preset", "error"}, table));
+  console.Print("\nrms " + PercentText(BeyondRounding(*rms, 1.0)) + " of what the meter showed\n");
+  Node document = {{"readings", readings},
+                   {"rms_relative", *rms},
+                   {"max_error", *max_error},
+                   {"lights", Node::List(RmsByLamp(rows),
+                                         [&](const LampRms& lamp) {
+                                           return Node{{"name", lamp.light},
+                                                       {"rms_relative", lamp.rms},
+                                                       {"off", lamp.rms > *max_error}};
+                                         })},
+                   {"missing", Node::UnlessEmpty(Node(missing))}};
+  if (const auto fault = Judged(options, *calibrated, rows, missing, *max_error)) {
+    return EndWithError(console, std::move(document), *fault);
+  }
+  console.PrintDocument(std::move(document));
+  return {};
+}
+
+}  // namespace lightcal::app
