@@ -190,6 +190,8 @@ Run BuildCheck(CLI::App& parser) {
                   "The preset is of lights at this state, as export writes it: "
                   "[LIGHT:]dimmer=18,cct_K=4500")
       ->allow_extra_args(false);
+  parser.add_option("--white", options->preset.white,
+                    "What the preset's pipeline shows as white, as export wrote it [D65]");
   parser
       .add_option("--max-error", options->preset.max_error,
                   "Exit 1 where the rms over a light's readings is beyond this")

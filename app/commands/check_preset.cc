@@ -6,15 +6,19 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibration_options.h"
 #include "check_cause.h"
+#include "color_words.h"
 #include "input_files.h"
 #include "lamp_state.h"
 #include "lightcal/calibrate/wall_part.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/presets/check/compare_colors.h"
+#include "lightcal/presets/check/compare_derived.h"
 #include "lightcal/presets/check/compare_readings.h"
 #include "lightcal/presets/check/read_preset.h"
 #include "lightcal/presets/preset_table.h"
@@ -91,16 +95,70 @@ std::string OffText(const std::vector<ComparedReading>& rows, const std::vector<
   return more == 0 ? text : text + " and " + std::to_string(more) + " more";
 }
 
+Node ColorNode(const ComparedColor& color) {
+  return {{"light", color.light},
+          {"apart_uv", color.apart_uv},
+          {"allowed_uv", color.allowed_uv},
+          {"off", color.Off()}};
+}
+
+Node DerivedNode(const DerivedOff& one) {
+  return {{"light", one.light},
+          {"engine", one.engine},
+          {"field", one.field},
+          {"listed", one.listed},
+          {"derived", one.derived}};
+}
+
+// How a file is not the session's, whatever its readings say.
+struct OtherFaults {
+  std::vector<std::string> missing, extra;  // lights, by name
+  std::vector<ComparedColor> colors;
+  std::vector<DerivedOff> derived;  // of a preset.json
+};
+
+std::optional<Error> OtherFault(const PresetCheck& options, const OtherFaults& faults) {
+  const auto fault = [&](const char* code, std::string message) {
+    return Error{ErrorKind::kFailed, code, options.file, std::move(message)};
+  };
+  if (!faults.missing.empty()) {
+    return fault("missing_lights", "shows no light for " + Joined(faults.missing) +
+                                       ": none is there, or it is hidden; export it from this "
+                                       "session");
+  }
+  if (!faults.extra.empty()) {
+    return fault("extra_lights", "shows " + std::to_string(faults.extra.size()) +
+                                     " that the session has not: " + Joined(faults.extra) +
+                                     ". What they shine comes on top of the lamps");
+  }
+  std::vector<ComparedColor> off = faults.colors;
+  std::erase_if(off, [](const ComparedColor& color) { return !color.Off(); });
+  if (off.empty() && faults.derived.empty()) return std::nullopt;
+  if (off.empty()) {
+    return fault("derived_off", "lists for engines what its lamps do not derive to: " +
+                                    Joined(faults.derived, ", ",
+                                           [](const DerivedOff& one) {
+                                             return one.light + "'s " + one.engine + " " +
+                                                    one.field + " " + RoundedText(one.listed, 5) +
+                                                    " instead of " + RoundedText(one.derived, 5);
+                                           }) +
+                                    ". Export it again, or undo what was edited in it");
+  }
+  return fault(
+      "color_off",
+      "has another colour than was read: " + Joined(off, ", ", [](const ComparedColor& color) {
+        return color.light + " by " + RoundedText(color.apart_uv, 2) + " in u'v' (" +
+               RoundedText(color.allowed_uv, 2) + " allowed)";
+      }) + ". Export it again; one that was exported with --white is checked with it");
+}
+
 // What the preset lacks, where that is more than it may.
 std::optional<Error> Judged(const PresetCheck& options, const CalibratedSession& calibrated,
-                            const std::vector<ComparedReading>& rows,
-                            const std::vector<std::string>& missing, double max_error) {
-  if (!missing.empty()) {
-    return Error{ErrorKind::kFailed, "missing_lights", options.file,
-                 "has no light for " + Joined(missing) + "; export it from this session"};
-  }
+                            const std::vector<ComparedReading>& rows, const OtherFaults& faults,
+                            double max_error) {
+  if (!faults.missing.empty()) return OtherFault(options, faults);
   const std::vector<LampRms> lamps = RmsByLamp(rows);
-  if (LampsOff(lamps, max_error).empty()) return std::nullopt;
+  if (LampsOff(lamps, max_error).empty()) return OtherFault(options, faults);
   const auto worst = std::ranges::max_element(rows, {}, [](const ComparedReading& row) {
     return row.used ? std::abs(row.Error().value_or(0.0)) : 0.0;
   });
@@ -118,6 +176,8 @@ std::optional<Error> Judged(const PresetCheck& options, const CalibratedSession&
 Result<void> CheckPreset(const PresetCheck& options, Console& console) {
   const auto max_error = ParseTolerance(options.max_error);
   if (!max_error) return tl::unexpected(max_error.error());
+  const auto words = ParseColorWords("", options.white);
+  if (!words) return tl::unexpected(words.error());
   const auto text = ReadInputFile(options.file);
   if (!text) return tl::unexpected(text.error());
   const auto lights = LightsOfPreset(options.file, *text, FilesBeside(options.file));
@@ -126,7 +186,13 @@ Result<void> CheckPreset(const PresetCheck& options, Console& console) {
   if (!calibrated) return tl::unexpected(calibrated.error());
   if (auto there = ToStates(options, *calibrated, console); !there) return there;
   const auto rows = ComparedWith(*calibrated, *lights);
-  const auto missing = LampsMissing(calibrated->session, calibrated->lights, *lights);
+  const PresetTarget* target = TargetOfFile(options.file);
+  const OtherFaults faults = {LampsMissing(calibrated->session, calibrated->lights, *lights),
+                              LightsBeyond(calibrated->session, *lights),
+                              CompareColors(calibrated->lights, *lights, words->white),
+                              target != nullptr && target->name == "json"
+                                  ? CompareDerived(*text, calibrated->lights, *max_error)
+                                  : std::vector<DerivedOff>{}};
   const auto rms = RmsOf(rows);
   if (!rms) {
     return Refused("no_readings", options.session, "has no reading to check against");
@@ -136,8 +202,7 @@ Result<void> CheckPreset(const PresetCheck& options, Console& console) {
     return Refused("bad_preset", options.file,
                    "gives no finite illuminance at a reading; look at its numbers");
   }
-  if (const PresetTarget* target = TargetOfFile(options.file);
-      target != nullptr && target->name == "blender") {
+  if (target != nullptr && target->name == "blender") {
     console.Warn(OldBlenderSpheres(calibrated->session, calibrated->lights));
   }
   if (auto strict = console.RefuseIfStrict(); !strict) return strict;
@@ -165,6 +230,10 @@ Result<void> CheckPreset(const PresetCheck& options, Console& console) {
   }
   console.Print(TextTable({"light", "distance", "meter", "of it walls", "preset", "error"}, table));
   console.Print("\nrms " + PercentText(BeyondRounding(*rms, 1.0)) + " of what the meter showed\n");
+  if (std::ranges::none_of(*lights,
+                           [](const EngineLight& light) { return light.rgb.has_value(); })) {
+    console.Print("colours not compared: the file holds none\n");
+  }
   Node document = {{"readings", readings},
                    {"rms_relative", *rms},
                    {"max_error", *max_error},
@@ -174,8 +243,11 @@ Result<void> CheckPreset(const PresetCheck& options, Console& console) {
                                                        {"rms_relative", lamp.rms},
                                                        {"off", lamp.rms > *max_error}};
                                          })},
-                   {"missing", Node::UnlessEmpty(Node(missing))}};
-  if (const auto fault = Judged(options, *calibrated, rows, missing, *max_error)) {
+                   {"missing", Node::UnlessEmpty(Node(faults.missing))},
+                   {"extra", Node::UnlessEmpty(Node(faults.extra))},
+                   {"derived_off", Node::UnlessEmpty(Node::List(faults.derived, DerivedNode))},
+                   {"colors", Node::UnlessEmpty(Node::List(faults.colors, ColorNode))}};
+  if (const auto fault = Judged(options, *calibrated, rows, faults, *max_error)) {
     return EndWithError(console, std::move(document), *fault);
   }
   console.PrintDocument(std::move(document));

@@ -11,12 +11,12 @@
 namespace lightcal::app {
 
 struct PresetCheck {
-  std::string file, session, max_error = "5%";
+  std::string file, session, max_error = "5%", white;
   std::vector<std::string> states;
 };
 
-// Ends with an error beside the whole answer where the file lacks a lamp or strays from what the
-// meter showed of one by more than max_error.
+// Ends with an error beside the whole answer where the file lacks a lamp, has one more or in
+// another colour, or strays from what the meter showed of one by more than max_error.
 [[nodiscard]] Result<void> CheckPreset(const PresetCheck& options, Console& console);
 
 }  // namespace lightcal::app

@@ -8,6 +8,7 @@ what nobody did is not.
 import json
 import math
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -51,6 +52,7 @@ class Edited(unittest.TestCase):
         cls.at = pathlib.Path(cls.folder.name)
         cls.many = cls.session("many", MANY, "gltf")
         cls.rig = cls.session("rig", RIG, "gltf", "usd", "godot", "json", "ies")
+
 
     @classmethod
     def tearDownClass(cls):
@@ -118,6 +120,148 @@ class Edited(unittest.TestCase):
         row = [r for r in answer["readings"] if r["light"] == "sun"][0]
         self.assertAlmostEqual(row["error"], math.cos(math.radians(27)) - 1, delta=1e-3)
         self.assertIn("sun 11 %", said)
+
+    # ---- edits that leave every number of a lamp's light as it is ----
+
+    def text(self, ending, change):
+        whole = (self.rig / "out" / f"rig.{ending}").read_text()
+        changed = change(whole)
+        self.assertNotEqual(changed, whole)
+        edited = self.rig / f"edited.{ending}"
+        edited.write_text(changed)
+        return edited
+
+    def test_untouched_files_are_right(self):
+        for ending in ("gltf", "usda", "tscn", "preset.json"):
+            answer, _ = self.check(self.rig, self.rig / "out" / f"rig.{ending}", 0)
+            self.assertEqual([c["light"] for c in answer["colors"]], ["bulb", "fill"], ending)
+            for color in answer["colors"]:
+                self.assertLess(color["apart_uv"], 0.001, (ending, color))
+                self.assertFalse(color["off"])
+
+    def test_photometric_files_hold_no_colour(self):
+        done = call("check", self.rig / "out" / "rig-bulb.ies", "--session", self.rig)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("colours not compared", done.stdout)
+
+    def test_another_colour_of_the_same_luminance(self):
+        """Green of the fill's own luminance, and how far that is in u'v' by the primaries."""
+        luminance = (0.2126390, 0.7151687, 0.0721923)
+        to_xyz = ((0.4123908, 0.3575843, 0.1804808), luminance, (0.0193308, 0.1191948, 0.9505322))
+
+        def uv(rgb):
+            x, y, z = (sum(a * b for a, b in zip(row, rgb)) for row in to_xyz)
+            return 4 * x / (x + 15 * y + 3 * z), 9 * y / (x + 15 * y + 3 * z)
+        green, apart = (0.2, 1.0, 0.2), []
+
+        def change(document):
+            fill = [d for d in document["extensions"]["KHR_lights_punctual"]["lights"]
+                    if d["name"] == "fill"][0]
+            was = sum(w * c for w, c in zip(luminance, fill["color"]))
+            fill["intensity"] *= was / sum(w * c for w, c in zip(luminance, green))
+            apart.append(math.dist(uv(green), uv(fill["color"])))
+            fill["color"] = list(green)
+        answer, said = self.check(self.rig, self.gltf(self.rig, change))
+        self.assertEqual(answer["error"]["code"], "color_off")
+        self.assertIn("fill by ", said)
+        self.assertNotIn("bulb", said)
+        off = [c for c in answer["colors"] if c["off"]]
+        self.assertAlmostEqual(off[0]["apart_uv"], apart[0], delta=5e-4)
+
+    def test_a_pipeline_white_adapts_the_colours(self):
+        home = self.rig / "white"
+        done = call("export", self.rig / "rig.json", "--to", "gltf", "--white", "3200K", "-o", home)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.check(self.rig, home / "rig.gltf")[0]["error"]["code"], "color_off")
+        done = call("check", home / "rig.gltf", "--session", self.rig, "--white", "3200K")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_another_light(self):
+        def change(document):
+            document["extensions"]["KHR_lights_punctual"]["lights"].append(
+                {"name": "lantern", "type": "point", "intensity": 500})
+            document["nodes"].append(
+                {"name": "lantern", "extensions": {"KHR_lights_punctual": {"light": 3}}})
+            document["scenes"][0]["nodes"].append(len(document["nodes"]) - 1)
+        answer, said = self.check(self.rig, self.gltf(self.rig, change))
+        self.assertEqual((answer["error"]["code"], answer["extra"]), ("extra_lights", ["lantern"]))
+        self.assertIn("shows 1 that the session has not: lantern", said)
+
+    def test_a_node_outside_of_the_scene(self):
+        def change(document):
+            at = [n["name"] for n in document["nodes"]].index("bulb")
+            document["scenes"][document["scene"]]["nodes"].remove(at)
+        self.assertEqual(self.check(self.rig, self.gltf(self.rig, change))[0]["missing"], ["bulb"])
+
+    def parent(self, **keys):
+        def change(document):
+            at = [n["name"] for n in document["nodes"]].index("bulb")
+            nodes = document["scenes"][document["scene"]]["nodes"]
+            nodes[nodes.index(at)] = len(document["nodes"])
+            document["nodes"].append({"name": "group", "children": [at], **keys})
+        return self.gltf(self.rig, change)
+
+    def test_parents_move_turn_and_scale_what_hangs_below(self):
+        """The bulb hangs 2 m high and was read from below, 1 m away: what a meter there sees."""
+        half = math.sqrt(0.5)
+        for keys, lux in (({"translation": [0, 1, 0]}, 47 / 2 ** 2),
+                          ({"scale": [1, 1.5, 1]}, 47 / 2 ** 2),
+                          ({"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 1, 0, 1]}, 47 / 2 ** 2),
+                          # On its side: 2 m along -x, the meter 1 m high, facing up.
+                          ({"rotation": [0, 0, half, half]}, 47 / 5 * math.sin(math.atan2(-1, 2)))):
+            answer, said = self.check(self.rig, self.parent(**keys))
+            row = [r for r in answer["readings"] if r["light"] == "bulb" and r["distance_m"] == 1][0]
+            self.assertAlmostEqual(row["predicted_lx"], max(lux, 0.0), delta=0.05, msg=keys)
+            self.assertIn("bulb", said)
+        self.check(self.rig, self.parent(), 0)
+
+    def test_hidden_and_negative_lights(self):
+        def in_prim(pattern, replacement):
+            def change(text):
+                at = text.index('def SphereLight "bulb"')
+                return text[:at] + re.sub(pattern, replacement, text[at:], count=1)
+            return change
+        for change in (in_prim(r"\(\n", "(\n    active = false\n"),
+                       in_prim("bool inputs:normalize",
+                               'token visibility = "invisible"\n    bool inputs:normalize')):
+            missing = self.check(self.rig, self.text("usda", change))[0]["missing"]
+            self.assertEqual(missing, ["bulb"])
+        # With what they hang below all are gone.
+        gone = self.text("usda", lambda text: text.replace(
+            'string renderer = "spec"\n  }\n', 'string renderer = "spec"\n  }\n  active = false\n'))
+        self.assertIn("holds no light", self.check(self.rig, gone, 3)[1])
+        moved = self.text("usda", lambda text: text.replace(
+            "\n{\n", "\n{\n  double3 xformOp:translate = (0, 0, 1)\n"
+            '  uniform token[] xformOpOrder = ["xformOp:translate"]\n', 1))
+        row = [r for r in self.check(self.rig, moved)[0]["readings"] if r.get("distance_m") == 1][0]
+        self.assertAlmostEqual(row["predicted_lx"], 47 / 4, delta=0.05)
+        hidden = self.text("tscn", lambda text: text.replace("omni_range", "visible = false\nomni_range", 1))
+        self.assertEqual(self.check(self.rig, hidden)[0]["missing"], ["bulb"])
+        negative = self.text("tscn", lambda text: text.replace(
+            "omni_range", "light_negative = true\nomni_range", 1))
+        row = self.check(self.rig, negative)[0]["readings"][0]
+        self.assertAlmostEqual(row["error"], -2, delta=0.01)
+
+    def test_numbers_for_engines_that_lamps_do_not_derive_to(self):
+        document = json.loads((self.rig / "out" / "rig.preset.json").read_text())
+        bulb = [lamp for lamp in document["lights"] if lamp["name"] == "bulb"][0]
+        bulb["derived"]["gltf"]["intensity"] /= 2
+        bulb["derived"]["unreal"]["intensity"] /= 2
+        edited = self.rig / "edited.preset.json"
+        edited.write_text(json.dumps(document))
+        answer, said = self.check(self.rig, edited)
+        self.assertEqual([(o["light"], o["engine"]) for o in answer["derived_off"]],
+                         [("bulb", "gltf"), ("bulb", "unreal")])
+        for one in answer["derived_off"]:
+            self.assertAlmostEqual(one["listed"] / one["derived"], 0.5, delta=1e-6)
+        self.assertIn("bulb's gltf intensity ", said)
+        # As it was exported for another pipeline.
+        home = self.rig / "aces"
+        done = call("export", self.rig / "rig.json", "--to", "json", "--space", "acescg",
+                    "--white", "3200K", "--range", "8 m", "-o", home)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = call("check", home / "rig.preset.json", "--session", self.rig)
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 if __name__ == "__main__":

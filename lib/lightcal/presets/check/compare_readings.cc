@@ -148,6 +148,16 @@ std::vector<std::string> LampsMissing(const Session& session, const LightFile& l
   return missing;
 }
 
+std::vector<std::string> LightsBeyond(const Session& session,
+                                      const std::vector<EngineLight>& lights) {
+  std::vector<std::string> beyond;
+  for (const EngineLight& light : lights) {
+    if (!light.placed || light.name.empty()) continue;
+    if (FindLight(session, light.name) == nullptr) beyond.push_back(light.name);
+  }
+  return beyond;
+}
+
 Warnings OldBlenderSpheres(const Session& session, const LightFile& lamps) {
   Warnings warnings;
   for (const FittedLight& lamp : lamps.lights) {

@@ -42,6 +42,10 @@ using WallPart = std::function<double(const FittedLight& lamp, const ResidualRow
 [[nodiscard]] std::vector<std::string> LampsMissing(const Session& session, const LightFile& lamps,
                                                     std::vector<EngineLight> lights);
 
+// Lights that stand for no lamp of the session, by name: what they shine comes on top.
+[[nodiscard]] std::vector<std::string> LightsBeyond(const Session& session,
+                                                    const std::vector<EngineLight>& lights);
+
 // Of a file for Blender: what its versions before 4.0 make of spheres where the nearest reading was
 // taken, of more than half a per cent.
 [[nodiscard]] Warnings OldBlenderSpheres(const Session& session, const LightFile& lamps);

@@ -48,6 +48,8 @@ struct EngineLight {
   std::optional<IntensityTable> table;
   double offset_m = 0.0;  // from where distances were measured to the light, of lamps without aim
   bool placed = true;     // false: the file holds neither place nor aim
+  // Its colour, linear Rec. 709 of any length. Absent: the file holds none, or a picture does.
+  std::optional<Vec3> rgb{};
 };
 
 // On a surface of unit normal `normal`.

@@ -15,12 +15,6 @@ template <class Json>
           three.at(2).template get<double>()};
 }
 
-// Luminance of linear Rec. 709.
-template <class Json>
-[[nodiscard]] double LuminanceFrom(const Json& rgb) {
-  return Rec709Luminance(VecFrom(rgb));
-}
-
 // The value of "distance_offset_m"; 0 where there is none.
 template <class Json>
 [[nodiscard]] double OffsetIn(const Json& extras) {

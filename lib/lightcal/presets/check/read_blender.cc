@@ -19,7 +19,9 @@ EngineLight FromBlender(const Json& json, double lumens_per_watt, const std::str
   EngineLight light;
   light.name = json.at("name").get<std::string>();
   const std::string type = json.at("type").get<std::string>();
-  const double y = LuminanceOfSpace(space, VecFrom(json.at("color")));
+  const Vec3 color = VecFrom(json.at("color"));
+  const double y = LuminanceOfSpace(space, color);
+  if (!json.contains("picture")) light.rgb = Rec709OfSpace(space, color);
   light.offset_m = OffsetIn(json.value("measured", Json()));
   if (type == "WORLD") {
     light.kind = EngineLightKind::kDome;

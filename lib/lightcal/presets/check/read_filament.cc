@@ -25,7 +25,9 @@ EngineLight FromFilament(const Json& json) {
   EngineLight light;
   light.name = json.at("name").get<std::string>();
   const std::string type = json.at("type").get<std::string>();
-  const double y = LuminanceFrom(json.at("color"));
+  const Vec3 color = VecFrom(json.at("color"));
+  const double y = Rec709Luminance(color);
+  if (!json.contains("irradiance")) light.rgb = color;
   light.offset_m = OffsetIn(json.value("measured", Json()));
   if (type == "INDIRECT") {
     light.kind = EngineLightKind::kDome;

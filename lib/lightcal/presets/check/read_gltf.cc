@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // glTF 2.0 with KHR_lights_punctual, by its specification.
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "lightcal/presets/check/json_reader_parts.h"
+#include "lightcal/presets/check/scene_frame.h"
 #include "lightcal/presets/exporters.h"
 
 namespace lightcal {
@@ -11,18 +16,36 @@ namespace {
 
 using Json = nlohmann::json;
 
-Vec3 Rotated(const Json& q, const Vec3& v) {
-  const Vec3 axis = {q.at(0).get<double>(), q.at(1).get<double>(), q.at(2).get<double>()};
-  const double w = q.at(3).get<double>();
-  const Vec3 twice = Cross(axis, v) * 2.0;
-  return v + twice * w + Cross(axis, twice);
+SceneFrame FrameOf(const Json& node) {
+  if (node.contains("matrix")) {  // by columns
+    const Json& m = node["matrix"];
+    const auto column = [&](std::size_t at) {
+      return Vec3{m.at(at).get<double>(), m.at(at + 1).get<double>(), m.at(at + 2).get<double>()};
+    };
+    return {column(0), column(4), column(8), column(12)};
+  }
+  SceneFrame frame;
+  if (node.contains("rotation")) {
+    const Json& q = node["rotation"];
+    frame = FrameTurnedBy(VecFrom(q), q.at(3).get<double>());
+  }
+  if (node.contains("scale")) {
+    const Vec3 scale = VecFrom(node["scale"]);
+    frame.x = frame.x * scale[0];
+    frame.y = frame.y * scale[1];
+    frame.z = frame.z * scale[2];
+  }
+  if (node.contains("translation")) frame.origin = VecFrom(node["translation"]);
+  return frame;
 }
 
-EngineLight FromGltf(const Json& node, const Json& definition) {
+// A scale moves what hangs below and makes no light brighter.
+EngineLight FromGltf(const Json& node, const SceneFrame& frame, const Json& definition) {
   EngineLight light;
   light.name = node.value("name", definition.value("name", std::string()));
   light.emitted = definition.value("intensity", 1.0);
-  if (definition.contains("color")) light.emitted *= LuminanceFrom(definition["color"]);
+  light.rgb = definition.contains("color") ? VecFrom(definition["color"]) : Vec3{1.0, 1.0, 1.0};
+  light.emitted *= Rec709Luminance(*light.rgb);
   light.range_m = definition.value("range", 0.0);
   light.window_power = 1.0;
   const std::string type = definition.at("type").get<std::string>();
@@ -34,11 +57,63 @@ EngineLight FromGltf(const Json& node, const Json& definition) {
     light.inner_rad = spot.value("innerConeAngle", 0.0);
     light.outer_rad = spot.value("outerConeAngle", std::numbers::pi / 4.0);
   }
-  if (node.contains("translation")) light.position_m = FromYUp(VecFrom(node["translation"]));
-  const Vec3 ahead = {0.0, 0.0, -1.0};
-  light.aim = FromYUp(node.contains("rotation") ? Rotated(node["rotation"], ahead) : ahead);
+  light.position_m = FromYUp(frame.origin);
+  light.aim = FromYUp(UnitAlong(light.name, frame.z)) * -1.0;
   if (node.contains("extras")) light.offset_m = OffsetIn(node["extras"].value("lightcal", Json()));
   return light;
+}
+
+// The lights of a scene, by its graph.
+class SceneWalk {
+ public:
+  SceneWalk(const Json& root, std::vector<EngineLight>& lights)
+      : nodes_(root.at("nodes")),
+        definitions_(root.at("extensions").at("KHR_lights_punctual").at("lights")),
+        seen_(nodes_.size()),
+        lights_(lights) {}
+
+  void Visit(std::size_t index, const SceneFrame& parent) {
+    const Json& node = nodes_.at(index);
+    if (seen_.at(index)) throw std::runtime_error("a node of it hangs at two places");
+    seen_[index] = true;
+    const Json extensions = node.value("extensions", Json::object());
+    if (!extensions.value("KHR_node_visibility", Json::object()).value("visible", true)) return;
+    const SceneFrame frame = Within(parent, FrameOf(node));
+    if (extensions.contains("KHR_lights_punctual")) {
+      const auto light = extensions["KHR_lights_punctual"].at("light").get<std::size_t>();
+      lights_.push_back(FromGltf(node, frame, definitions_.at(light)));
+    }
+    for (const Json& child : node.value("children", Json::array())) {
+      Visit(child.get<std::size_t>(), frame);
+    }
+  }
+
+ private:
+  const Json& nodes_;
+  const Json& definitions_;
+  std::vector<bool> seen_;
+  std::vector<EngineLight>& lights_;
+};
+
+// Of the scene that is shown; of a file without scenes all nodes that hang below none.
+std::vector<std::size_t> RootsOf(const Json& root) {
+  if (root.contains("scenes")) {
+    return root["scenes"]
+        .at(root.value("scene", std::size_t{0}))
+        .value("nodes", std::vector<std::size_t>());
+  }
+  const Json& nodes = root.at("nodes");
+  std::vector<bool> below(nodes.size());
+  for (const Json& node : nodes) {
+    for (const Json& child : node.value("children", Json::array())) {
+      below.at(child.get<std::size_t>()) = true;
+    }
+  }
+  std::vector<std::size_t> roots;
+  for (std::size_t i = 0; i < below.size(); ++i) {
+    if (!below[i]) roots.push_back(i);
+  }
+  return roots;
 }
 
 }  // namespace
@@ -46,13 +121,8 @@ EngineLight FromGltf(const Json& node, const Json& definition) {
 std::vector<EngineLight> ReadGltf(const std::string& text, const FileText& /*beside*/) {
   const Json root = Json::parse(text);
   std::vector<EngineLight> lights;
-  const Json& list = root.at("extensions").at("KHR_lights_punctual").at("lights");
-  for (const Json& node : root.at("nodes")) {
-    if (!node.contains("extensions") || !node["extensions"].contains("KHR_lights_punctual"))
-      continue;
-    const auto index = node["extensions"]["KHR_lights_punctual"].at("light").get<std::size_t>();
-    lights.push_back(FromGltf(node, list.at(index)));
-  }
+  SceneWalk walk(root, lights);
+  for (const std::size_t node : RootsOf(root)) walk.Visit(node, {});
   return lights;
 }
 

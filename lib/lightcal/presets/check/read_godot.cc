@@ -13,6 +13,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units.h"
 #include "lightcal/presets/check/reader_parts.h"
+#include "lightcal/presets/check/scene_frame.h"
 #include "lightcal/presets/check/whole_text.h"
 #include "lightcal/presets/exporters.h"
 
@@ -23,7 +24,7 @@ constexpr std::string_view kGodotEndsWith = "; This scene ends with the line \";
 constexpr std::string_view kGodotEnd = "\n; end";
 
 struct Section {
-  std::string kind, type, name;  // "node", "OmniLight3D", "key"
+  std::string kind, type, name, parent;  // "node", "OmniLight3D", "key", "."
   std::map<std::string, std::string> values;
 
   [[nodiscard]] double Number(const std::string& key, double by_default) const {
@@ -84,7 +85,11 @@ std::vector<Section> SectionsOf(const std::string& text) {
       if (line == "}") key.clear();
     } else if (line.starts_with('[') && line.ends_with(']')) {
       const std::string_view kind = line.substr(1, line.find_first_of(" ]") - 1);
-      sections.push_back({std::string(kind), Attribute(line, "type"), Attribute(line, "name"), {}});
+      sections.push_back({std::string(kind),
+                          Attribute(line, "type"),
+                          Attribute(line, "name"),
+                          Attribute(line, "parent"),
+                          {}});
     } else if (const std::size_t equals = line.find(" = ");
                equals != std::string_view::npos && !sections.empty() && line.front() != ';') {
       const std::string name(line.substr(0, equals));
@@ -138,19 +143,47 @@ std::string InMetadata(const Section& node, const std::string& key) {
   return it->second.substr(value, it->second.find('\n', value) - value);
 }
 
-void Place(const Section& node, EngineLight& light) {
+SceneFrame FrameOf(const Section& node) {
   const auto it = node.values.find("transform");
-  if (it == node.values.end()) {
-    light.aim = FromYUp({0.0, 0.0, -1.0});
-    return;
-  }
+  if (it == node.values.end()) return {};
   const auto t = NumbersIn(it->second);
   if (t.size() != 12) throw std::runtime_error(node.name + ": transform has not twelve numbers");
-  light.position_m = FromYUp({t[9], t[10], t[11]});
-  light.aim = FromYUp({-t[2], -t[5], -t[8]});
+  return {{t[0], t[3], t[6]}, {t[1], t[4], t[7]}, {t[2], t[5], t[8]}, {t[9], t[10], t[11]}};
 }
 
-EngineLight FromNode(const Section& node) {
+bool IsSwitchedOff(const Section& node, const char* key, const char* off) {
+  const auto it = node.values.find(key);
+  return it != node.values.end() && it->second == off;
+}
+
+// Where a node is in the scene, and whether it or what it hangs below is hidden there.
+struct PlacedNode {
+  SceneFrame frame;
+  bool hidden = false;
+};
+
+// Parents come before their children, who name them by their path below the root.
+class SceneTree {
+ public:
+  PlacedNode Place(const Section& node) {
+    PlacedNode placed;
+    const auto parent = placed_.find(node.parent);
+    if (parent != placed_.end()) placed = parent->second;
+    placed.frame = Within(placed.frame, FrameOf(node));
+    placed.hidden = placed.hidden || IsSwitchedOff(node, "visible", "false") ||
+                    IsSwitchedOff(node, "editor_only", "true");
+    const std::string path = node.parent.empty()  ? "."
+                             : node.parent == "." ? node.name
+                                                  : node.parent + "/" + node.name;
+    placed_[path] = placed;
+    return placed;
+  }
+
+ private:
+  std::map<std::string, PlacedNode> placed_;
+};
+
+EngineLight FromNode(const Section& node, const SceneFrame& frame) {
   EngineLight light;
   light.name = node.name;
   if (const std::string name = InMetadata(node, "name"); name.size() > 2) {
@@ -159,12 +192,13 @@ EngineLight FromNode(const Section& node) {
   if (const auto offset = NumbersIn(InMetadata(node, "distance_offset_m")); !offset.empty()) {
     light.offset_m = offset.front();
   }
-  Place(node, light);
+  light.position_m = FromYUp(frame.origin);
+  light.aim = FromYUp(UnitAlong(light.name, frame.z)) * -1.0;
   const Vec3 color = LinearColor(node, "light_color");
   const Vec3 tint = TintOf(node.Number("light_temperature", 6500.0));
-  const double scale =
-      node.Number("light_energy", 1.0) *
-      Rec709Luminance(Vec3{color[0] * tint[0], color[1] * tint[1], color[2] * tint[2]});
+  light.rgb = Vec3{color[0] * tint[0], color[1] * tint[1], color[2] * tint[2]};
+  const double scale = node.Number("light_energy", 1.0) * Rec709Luminance(*light.rgb) *
+                       (IsSwitchedOff(node, "light_negative", "true") ? -1.0 : 1.0);
   if (node.type == "DirectionalLight3D") {
     light.kind = EngineLightKind::kSun;
     light.emitted = node.Number("light_intensity_lux", 100000.0) * scale;
@@ -205,9 +239,11 @@ std::vector<EngineLight> ReadGodot(const std::string& text, const FileText& /*be
   std::vector<EngineLight> lights;
   const std::vector<Section> sections = SectionsOf(text);
   const double exposure = ExposureIn(sections);
+  SceneTree tree;
   for (const Section& section : sections) {
-    if (IsLight(section)) {
-      lights.push_back(FromNode(section));
+    if (section.kind == "node") {
+      const PlacedNode placed = tree.Place(section);
+      if (IsLight(section) && !placed.hidden) lights.push_back(FromNode(section, placed.frame));
     }
     constexpr double kSky = 2.0;  // background_mode: what a picture lights is not in this text
     if (section.type == "Environment" && section.values.contains("background_intensity") &&
@@ -219,6 +255,7 @@ std::vector<EngineLight> ReadGodot(const std::string& text, const FileText& /*be
           exposure > 0.0 ? 1.0 / exposure : section.Number("background_intensity", 30000.0);
       dome.emitted = section.Number("background_energy_multiplier", 1.0) * nits_per_unit *
                      Rec709Luminance(LinearColor(section, "background_color"));
+      dome.rgb = LinearColor(section, "background_color");
       lights.push_back(dome);
     }
   }

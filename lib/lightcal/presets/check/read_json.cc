@@ -79,6 +79,9 @@ EngineLight FromPreset(const Json& json, const FileText& beside) {
   const auto value = [&](const char* key) { return photometry.at(key).at("value").get<double>(); };
   if (geometry.contains("position_m")) light.position_m = VecFrom(geometry["position_m"]);
   const bool aimed = geometry.contains("aim");
+  if (const Json color = json.value("color", Json()); color.contains("rec709_linear")) {
+    light.rgb = VecFrom(color["rec709_linear"].at("max_normalised"));
+  }
   if (aimed) light.aim = VecFrom(geometry["aim"]);
   if (kind == "directional") {
     light.kind = EngineLightKind::kSun;

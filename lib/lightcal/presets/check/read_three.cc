@@ -29,7 +29,9 @@ EngineLight FromThree(const Json& json) {
   EngineLight light;
   light.name = json.at("name").get<std::string>();
   const std::string type = json.at("type").get<std::string>();
-  light.emitted = json.at("intensity").get<double>() * LuminanceFrom(json.at("color"));
+  const Vec3 color = VecFrom(json.at("color"));
+  light.emitted = json.at("intensity").get<double>() * Rec709Luminance(color);
+  if (!json.contains("picture")) light.rgb = color;
   light.position_m = FromYUp(VecFrom(json.at("position_m")));
   light.aim = FromYUp(VecFrom(json.at("direction")));
   light.offset_m = OffsetIn(json.value("measured", Json()));

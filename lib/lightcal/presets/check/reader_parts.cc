@@ -34,6 +34,30 @@ double LuminanceOfSpace(std::string_view space, const Vec3& rgb) {
   return known == kWeights.end() ? Rec709Luminance(rgb) : Dot(known->of, rgb);
 }
 
+Vec3 Rec709OfSpace(std::string_view space, const Vec3& rgb) {
+  // Rows of their matrices to Rec. 709; ACEScg's white adapted to D65 (Bradford). Source: SMPTE EG
+  // 432-1, ITU-R BT.2407-0, ACES (AP1 to Rec. 709).
+  struct Matrix {
+    std::string_view space;
+    std::array<Vec3, 3> rows;
+  };
+  constexpr std::array kMatrices = {Matrix{"p3",
+                                           {{{1.2249402, -0.2249402, 0.0},
+                                             {-0.0420570, 1.0420570, 0.0},
+                                             {-0.0196376, -0.0786361, 1.0982736}}}},
+                                    Matrix{"rec2020",
+                                           {{{1.6604910, -0.5876411, -0.0728499},
+                                             {-0.1245505, 1.1328999, -0.0083494},
+                                             {-0.0181508, -0.1005789, 1.1187297}}}},
+                                    Matrix{"acescg",
+                                           {{{1.7050515, -0.6217907, -0.0832587},
+                                             {-0.1302571, 1.1408029, -0.0105482},
+                                             {-0.0240033, -0.1289688, 1.1529717}}}}};
+  const auto known = std::ranges::find(kMatrices, space, &Matrix::space);
+  if (known == kMatrices.end()) return rgb;
+  return {Dot(known->rows[0], rgb), Dot(known->rows[1], rgb), Dot(known->rows[2], rgb)};
+}
+
 void RequireFinite(const std::vector<EngineLight>& lights) {
   const auto finite = [](const Vec3& v) {
     return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
@@ -43,7 +67,8 @@ void RequireFinite(const std::vector<EngineLight>& lights) {
                                 light.decay,   light.cone_power, light.range_m,
                                 light.width_m, light.height_m,   light.offset_m};
     if (std::ranges::all_of(numbers, [](double v) { return std::isfinite(v); }) &&
-        finite(light.position_m) && finite(light.aim) && finite(light.x) && finite(light.y)) {
+        finite(light.position_m) && finite(light.aim) && finite(light.x) && finite(light.y) &&
+        finite(light.rgb.value_or(Vec3{}))) {
       continue;
     }
     throw std::runtime_error(light.name + ": its numbers lead beyond all numbers");

@@ -27,6 +27,9 @@ template <class Rgb>
 // The same of the space a preset says it is written in ("acescg"); "" = Rec. 709.
 [[nodiscard]] double LuminanceOfSpace(std::string_view space, const Vec3& rgb);
 
+// Linear Rec. 709, white D65, of a colour in that space; negative where it is beyond.
+[[nodiscard]] Vec3 Rec709OfSpace(std::string_view space, const Vec3& rgb);
+
 // Throws where a light has a NaN or infinity.
 void RequireFinite(const std::vector<EngineLight>& lights);
 // The value; throws where it is not above 0, naming `what`.
