@@ -45,7 +45,7 @@ std::string Substitutes(Warnings substituted, const std::vector<ComparedReading>
                         double max_error) {
   std::erase_if(substituted, [&](const Warning& w) {
     return std::ranges::none_of(rows, [&](const ComparedReading& row) {
-      return row.light == w.subject && std::abs(row.Error().value_or(0.0)) > max_error;
+      return row.light == w.subject && std::abs(row.Judged().value_or(0.0)) > max_error;
     });
   });
   return Joined(substituted, "; ", [](const Warning& w) { return w.subject + " is " + w.message; });
@@ -84,7 +84,10 @@ std::string CauseOfStraying(std::string_view preset, const CalibratedSession& ca
   const PresetTarget* target = TargetOfFile(preset);
   const auto fresh = target != nullptr ? FreshPresetOf(*target, calibrated.lights) : std::nullopt;
   if (!fresh) return again;
-  const auto fresh_rows = ComparedWith(calibrated, fresh->lights);
+  auto fresh_rows = ComparedWith(calibrated, fresh->lights);
+  std::erase_if(fresh_rows, [&](const ComparedReading& row) {  // of lamps that this file is not of
+    return std::ranges::find(rows, row.light, &ComparedReading::light) == rows.end();
+  });
   const std::optional<double> left = WorstRms(fresh_rows);
   if (!left) return again;
   const bool strays = *left > max_error;
@@ -96,7 +99,7 @@ std::string CauseOfStraying(std::string_view preset, const CalibratedSession& ca
     }
   }
   if (!strays) return again;
-  const std::string title(target->title);
+  const std::string title(target->title.empty() ? target->ending : target->title);
   const std::string held = Substitutes(fresh->substituted, fresh_rows, max_error);
   const std::string lacks =
       held.empty() ? "that is what " + title + " makes of these lamps" : "in " + title + " " + held;

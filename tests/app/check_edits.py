@@ -44,6 +44,18 @@ RIG = [light("bulb", 'kind = "point"\nposition_m = [0, 0, 2]\naim = [0, 0, -1]',
        light("fill", 'kind = "point"\nposition_m = [2, 0, 2]\naim = [0, 0, -1]',
              falling(120.0, "cct_K = 5600\nduv = 0")), SUN]
 
+# A beam of 1000 lx at 2 m: 36 degrees off its axis a three-thousandth is left of it.
+RIM = [light("spot", 'kind = "spot"', falling(4000.0) + [
+    f"distance_m = 2\noff_axis_deg = {a}\nilluminance_lx = {lux}" for a, lux in
+    ((4, 973.669), (8, 850.628), (12, 628.598), (16, 374.991), (20, 173.401), (25, 43.7202),
+     (30, 6.55095), (36, 0.310434))])]
+# Nobody says where they stand.
+LOOSE = [light("bulb", 'kind = "point"', falling(47.0)),
+         light("key", 'kind = "spot"\ninner_deg = 15\nouter_deg = 25', falling(4000.0) + [
+             f"distance_m = 2\noff_axis_deg = {a}\nilluminance_lx = {lux}"
+             for a, lux in ((10, 1000), (17, 703.286), (20, 313.576))]),
+         light("sun", 'kind = "directional"', ["illuminance_lx = 98000"])]
+
 
 class Edited(unittest.TestCase):
     @classmethod
@@ -53,6 +65,8 @@ class Edited(unittest.TestCase):
         cls.many = cls.session("many", MANY, "gltf")
         cls.rig = cls.session("rig", RIG, "gltf", "usd", "godot", "json", "ies")
 
+        cls.rim = cls.session("rim", RIM, "usd", "json", "ies")
+        cls.loose = cls.session("loose", LOOSE, "gltf", "usd", "three", "blender", "filament")
 
     @classmethod
     def tearDownClass(cls):
@@ -262,6 +276,52 @@ class Edited(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         done = call("check", home / "rig.preset.json", "--session", self.rig)
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    # ---- what nobody edited ----
+
+    def test_a_rim_that_a_cone_does_not_hold(self):
+        for file in ("rim.usda", "rim.preset.json", "rim-spot.ies"):
+            whole = self.rim / "out" / file
+            self.check(self.rim, whole, 0)
+        edited = self.rim / "out" / "edited.usda"  # beside its distribution
+        edited.write_text(re.sub(r"(inputs:intensity = )([-\d.e+]+)",
+                                 lambda m: m[1] + repr(1.1 * float(m[2])),
+                                 (self.rim / "out" / "rim.usda").read_text(), count=1))
+        self.check(self.rim, edited)
+
+    def test_what_is_said_of_files_that_are_as_exported(self):
+        for file in ("rim.usda", "rim.preset.json", "rim-spot.ies"):
+            done = call("check", self.rim / "out" / file, "--session", self.rim, "--max-error", "0.01%")
+            if done.returncode == 0:
+                continue
+            self.assertEqual(done.returncode, 1, file)
+            self.assertNotIn("undo what was edited", done.stderr, file)
+            self.assertIn("nothing in it was edited", done.stderr, file)
+            if file != "rim.usda":
+                self.assertNotIn(".ies and .ldt hold the beam itself", done.stderr, file)
+
+    def test_lamps_may_be_moved_where_nobody_says_where_they_stand(self):
+        half = math.sqrt(0.5)
+
+        def moved(document):
+            for at, node in enumerate(document["nodes"]):
+                node["translation"] = [3.0 * at, 1.0, -2.0]
+                node["rotation"] = [half, 0.0, 0.0, half]
+
+        def brighter(document):
+            moved(document)
+            document["extensions"]["KHR_lights_punctual"]["lights"][0]["intensity"] *= 1.2
+        before, _ = self.check(self.loose, self.loose / "out" / "loose.gltf", 0)
+        after, _ = self.check(self.loose, self.gltf(self.loose, moved), 0)
+        for row, was in zip(after["readings"], before["readings"]):
+            self.assertAlmostEqual(row["predicted_lx"] / was["predicted_lx"], 1.0, delta=1e-6)
+        answer, said = self.check(self.loose, self.gltf(self.loose, brighter))
+        self.assertIn("bulb 20 %", said)
+        self.assertEqual([lamp["name"] for lamp in answer["lights"] if lamp["off"]], ["bulb"])
+        # Where the session says the place, one that was moved is named.
+        def lifted(document):
+            [n for n in document["nodes"] if n["name"] == "bulb"][0]["translation"][1] += 1.0
+        self.assertIn("bulb", self.check(self.rig, self.gltf(self.rig, lifted))[1])
 
 
 if __name__ == "__main__":

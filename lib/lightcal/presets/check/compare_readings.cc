@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <cstddef>
 #include <numbers>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
 #include "lightcal/light/lamp_axes.h"
 #include "lightcal/presets/blender_sphere.h"
 #include "lightcal/records/light_curve.h"
@@ -32,14 +33,17 @@ struct MeteredLamp {
   Vec3 place_m{}, aim{0.0, 0.0, -1.0};
   LampAxes axes{};
   bool turned = false;
-  double offset_m = 0.0, surface_m = 0.0;  // surface: of a sphere that distances count from
+  bool has_place = false, has_aim = false;  // somebody says them, or the readings did
+  double offset_m = 0.0, surface_m = 0.0;   // surface: of a sphere that distances count from
 };
 
 MeteredLamp MeteredLampOf(const LightDescription& description, const FittedLight& fitted) {
   MeteredLamp lamp{description, fitted};
   lamp.place_m = fitted.position_m.value_or(description.position_m.value_or(Vec3{}));
+  lamp.has_place = fitted.position_m || description.position_m;
   const LightKind kind = description.kind;
   const auto aim = fitted.aim ? fitted.aim : description.aim;
+  lamp.has_aim = aim.has_value();
   if (aim && kind != LightKind::kDome) lamp.aim = *aim;
   if (!description.aim && kind == LightKind::kTube && description.axis) {
     lamp.aim = AxesOfAim(*description.axis).c0;  // any that is square to it
@@ -76,6 +80,22 @@ EngineLight PlacedLike(const MeteredLamp& lamp, EngineLight light) {
   return light;
 }
 
+// The lamp where the file has it, in as far as nobody says where it stands: a preset is there for
+// being moved, and what was read at a distance from a lamp holds wherever that goes.
+MeteredLamp WhereFileHas(const MeteredLamp& lamp, const EngineLight& light) {
+  MeteredLamp there = lamp;
+  if (!light.placed || light.kind == EngineLightKind::kDome) return there;
+  const double length = Length(light.aim);
+  if (!lamp.has_aim && length > 0.0) {
+    there.aim = light.aim * (1.0 / length);
+    there.axes = AxesOfAim(there.aim, light.x);
+  }
+  if (!lamp.has_place) {
+    there.place_m = light.position_m + there.aim * (lamp.turned ? lamp.offset_m : 0.0);
+  }
+  return there;
+}
+
 // As by distance: of a lamp that is not turned the offset is a radius, whatever told the place.
 Vec3 Outwards(const MeteredLamp& lamp, const Vec3& point, double offset_m) {
   const Vec3 way = point - lamp.place_m;
@@ -100,12 +120,37 @@ double Predicted(const std::vector<EngineLight>& lights, const MeteredLamp& lamp
     }
     const double d = (reading.distance ? reading.distance->value() : 1.0) + lamp.surface_m +
                      (lamp.turned ? 0.0 : placed.offset_m);
-    const std::vector<Vec3> ways = WaysFrom(lamp, reading.off_axis.value());
+    const MeteredLamp there = WhereFileHas(lamp, placed);
+    const std::vector<Vec3> ways = WaysFrom(there, reading.off_axis.value());
     double facing = 0.0;
-    for (const Vec3& way : ways) facing += LuxAt(placed, lamp.place_m + way * d, way * -1.0);
+    for (const Vec3& way : ways) facing += LuxAt(placed, there.place_m + way * d, way * -1.0);
     sum += facing / static_cast<double>(ways.size()) * std::cos(reading.tilt.value());
   }
   return sum;
+}
+
+// What the fit itself leaves of a row, in lux: its residual, and of a beam the thousandth of its
+// peak at which every distribution ends (kDarkEnd of fit/beam).
+double LeftAt(const ResidualRow& row) {
+  constexpr double kBeamEnd = 1e-3;
+  return std::max(std::abs(row.predicted_lx - row.measured_lx),
+                  kBeamEnd * row.facing_lx.value_or(0.0));
+}
+
+// u95, in lux, of what the fit holds at a row.
+double UnsureAt(const FittedLight& lamp, const ResidualRow& row, const Reading& reading) {
+  const double own = kZ95 * row.sigma_relative * row.predicted_lx;
+  if (!lamp.distribution || lamp.distribution->pattern_sd.empty()) return own;
+  const std::vector<double>& angles = lamp.distribution->table.grid().vertical_deg;
+  const std::vector<double>& sd = lamp.distribution->pattern_sd;
+  const double at = std::abs(DegreesFromRadians(reading.off_axis));
+  const auto next = std::ranges::upper_bound(angles, at);
+  const auto i = static_cast<std::size_t>(next - angles.begin());
+  double there = sd[std::min(i, sd.size()) - (i > 0 ? 1 : 0)];
+  if (i > 0 && i < sd.size()) {
+    there += (sd[i] - sd[i - 1]) * (at - angles[i - 1]) / (angles[i] - angles[i - 1]);
+  }
+  return std::hypot(own, kZ95 * there * row.facing_lx.value_or(row.predicted_lx));
 }
 
 // Lights that stand for no lamp by name stand for all: photometric files of any make.
@@ -127,12 +172,34 @@ bool IsOfAnother(const std::vector<EngineLight>& lights, const FittedLight& lamp
   });
 }
 
+struct SquareMean {
+  double sum = 0.0;
+  int count = 0;
+
+  void Add(const std::optional<double>& value) {
+    if (!value) return;
+    sum += *value * *value;
+    ++count;
+  }
+  [[nodiscard]] std::optional<double> Root() const {
+    return count > 0 ? std::optional(std::sqrt(sum / count)) : std::nullopt;
+  }
+};
+
 }  // namespace
 
 std::optional<double> ComparedReading::Error() const {
   const double shown = measured_lx + walls_lx;
   if (!(shown > 0.0)) return std::nullopt;
   return (predicted_lx - measured_lx) / shown;
+}
+
+std::optional<double> ComparedReading::Judged() const {
+  const double shown = measured_lx + walls_lx;
+  if (!(shown > 0.0)) return std::nullopt;
+  const double off = predicted_lx - measured_lx;
+  const double beyond = std::max(0.0, std::abs(off) - left_lx);
+  return std::copysign(beyond / std::max(shown, unsure_lx), off);
 }
 
 std::vector<std::string> LampsMissing(const Session& session, const LightFile& lamps,
@@ -200,32 +267,30 @@ std::vector<ComparedReading> CompareWithReadings(const Session& session, const L
       const double walls = walls_of(lamp, row);
       rows.push_back({lamp.name, row.index, row.distance_m, row.measured_lx - others - walls, walls,
                       Predicted(lights, MeteredLampOf(*description, lamp), reading), row.used,
-                      DegreesFromRadians(reading.off_axis)});
+                      DegreesFromRadians(reading.off_axis), LeftAt(row),
+                      UnsureAt(lamp, row, reading)});
     }
   }
   return rows;
 }
 
 std::optional<double> RmsOf(const std::vector<ComparedReading>& rows) {
-  double sum = 0.0;
-  int count = 0;
+  SquareMean mean;
   for (const ComparedReading& row : rows) {
-    const auto error = row.Error();
-    if (!row.used || !error) continue;
-    sum += *error * *error;
-    ++count;
+    if (row.used) mean.Add(row.Error());
   }
-  return count > 0 ? std::optional(std::sqrt(sum / count)) : std::nullopt;
+  return mean.Root();
 }
 
 std::vector<LampRms> RmsByLamp(const std::vector<ComparedReading>& rows) {
   std::vector<LampRms> lamps;
   for (const ComparedReading& first : rows) {
     if (std::ranges::find(lamps, first.light, &LampRms::light) != lamps.end()) continue;
-    std::vector<ComparedReading> own;
-    std::ranges::copy_if(rows, std::back_inserter(own),
-                         [&](const ComparedReading& row) { return row.light == first.light; });
-    if (const auto rms = RmsOf(own)) lamps.push_back({first.light, *rms});
+    SquareMean mean;
+    for (const ComparedReading& row : rows) {
+      if (row.used && row.light == first.light) mean.Add(row.Judged());
+    }
+    if (const auto rms = mean.Root()) lamps.push_back({first.light, *rms});
   }
   return lamps;
 }

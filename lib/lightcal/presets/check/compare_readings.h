@@ -22,9 +22,18 @@ struct ComparedReading {
   double measured_lx = 0.0, walls_lx = 0.0, predicted_lx = 0.0;
   bool used = true;
   double off_axis_deg = 0.0;  // as the reading says; 0 = on the axis, or at a place
+  // What the fit itself leaves of the reading (of a beam no less than the thousandth of its peak
+  // where distributions end), and u95 of what it holds there: of the row, and of a
+  // measured beam in that direction.
+  double left_lx = 0.0, unsure_lx = 0.0;
 
   // Of what the meter showed, the ambient light aside; absent where it showed nothing.
   [[nodiscard]] std::optional<double> Error() const;
+  // The error that a file is judged by. No file can be nearer to a reading than the fit it was
+  // written from, and a reading that is dimmer than the fit is sure there says nothing by its own
+  // size (a beam's rim, of 0.3 lx where the lamp's middle has 1000):
+  //   sign(P - M) max(0, |P - M| - left) / max(M + walls, unsure)
+  [[nodiscard]] std::optional<double> Judged() const;
 };
 
 // Of a row of the fit, the lux off the walls: no lamp in an engine gives them.
@@ -53,14 +62,14 @@ using WallPart = std::function<double(const FittedLight& lamp, const ResidualRow
 // Root mean square of the used readings' errors; absent without any.
 [[nodiscard]] std::optional<double> RmsOf(const std::vector<ComparedReading>& rows);
 
-// The same of each lamp by itself, in the order of its first row: among many right ones a wrong
-// lamp is small. Without lamps that no used reading tells.
+// Root mean square of what each lamp's used readings are judged by, in the order of its first row:
+// among many right ones a wrong lamp is small. Without lamps that no used reading tells.
 struct LampRms {
   std::string light;
   double rms = 0.0;
 };
 [[nodiscard]] std::vector<LampRms> RmsByLamp(const std::vector<ComparedReading>& rows);
-// The largest of them, which RmsOf never exceeds; absent without any.
+// The largest of them; absent without any.
 [[nodiscard]] std::optional<double> WorstRms(const std::vector<ComparedReading>& rows);
 
 }  // namespace lightcal
