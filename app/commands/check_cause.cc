@@ -2,8 +2,10 @@
 #include "check_cause.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -68,6 +70,106 @@ std::optional<AskedForm> FormOf(const std::vector<ComparedReading>& rows,
   return std::nullopt;
 }
 
+// ---- mistakes by their number ----
+
+// Of what a lamp should give, at each of its readings alike; absent where it is not.
+struct LampFactor {
+  std::string light;
+  double factor = 1.0;
+};
+
+// Of the lamps that stray.
+std::vector<LampFactor> FactorsOf(const std::vector<ComparedReading>& rows, double max_error) {
+  std::vector<LampFactor> factors;
+  for (const LampRms& lamp : RmsByLamp(rows)) {
+    if (lamp.rms <= max_error) continue;
+    double given = 0.0, squares = 0.0;
+    const auto each = [&](const auto& visit) {
+      for (const ComparedReading& row : rows) {
+        if (row.used && row.light == lamp.light && row.measured_lx > row.unsure_lx) visit(row);
+      }
+    };
+    each([&](const ComparedReading& row) {
+      given += row.predicted_lx / row.measured_lx;
+      squares += 1.0;
+    });
+    const double factor = squares > 0.0 ? given / squares : 0.0;
+    bool alike = factor > 0.0;
+    each([&](const ComparedReading& row) {
+      alike = alike && std::abs(row.predicted_lx / row.measured_lx / factor - 1.0) <= max_error;
+    });
+    factors.push_back({lamp.light, alike ? factor : 0.0});
+  }
+  return factors;
+}
+
+struct UnitMistake {
+  double factor;
+  std::string_view text;
+};
+constexpr double kPi = std::numbers::pi;
+constexpr std::array kUnitMistakes = {
+    UnitMistake{4.0 * kPi, "4 pi: lumens where candela belong"},
+    UnitMistake{1.0 / (4.0 * kPi), "1/(4 pi): candela where lumens belong"},
+    UnitMistake{kPi, "pi: lumens of a cone or a flat source where candela belong"},
+    UnitMistake{1.0 / kPi, "1/pi: candela where lumens of a cone or a flat source belong"},
+    UnitMistake{683.0, "683 lm/W: lumens where watts belong"},
+    UnitMistake{1.0 / 683.0, "1/683: watts where lumens belong"},
+    UnitMistake{683.0 / (4.0 * kPi), "683/(4 pi): candela where watts belong"},
+    UnitMistake{4.0 * kPi / 683.0, "4 pi/683: watts where candela belong"},
+    UnitMistake{1000.0, "1000: as if its figures counted thousands"},
+    UnitMistake{0.001, "1/1000: kilolux or kilocandela where lux or candela belong"},
+    UnitMistake{100.0, "100: centimetres where metres belong"},
+    UnitMistake{0.01, "1/100: metres where centimetres belong"},
+    UnitMistake{10000.0, "10000: square centimetres where square metres belong"},
+    UnitMistake{0.0001, "1/10000: square metres where square centimetres belong"}};
+
+bool Near(double a, double b) { return std::abs(a / b - 1.0) < 0.01; }
+
+// "" where the factor is none that has a name.
+std::string UnitMistakeOf(double factor) {
+  const auto known = std::ranges::find_if(
+      kUnitMistakes, [&](const UnitMistake& one) { return Near(factor, one.factor); });
+  return known == kUnitMistakes.end() ? std::string() : std::string(known->text);
+}
+
+double StrengthOf(const LightFile& lights, const std::string& name) {
+  const auto it = std::ranges::find(lights.lights, name, &FittedLight::name);
+  return it != lights.lights.end() && it->intensity_cd ? it->intensity_cd->value : 0.0;
+}
+
+// "fill and bulb have each other's figures. ": each is as bright as the other should be.
+std::string Swapped(const LightFile& lights, const std::vector<LampFactor>& factors) {
+  std::string text;
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    for (std::size_t j = i + 1; j < factors.size(); ++j) {
+      const double one = StrengthOf(lights, factors[i].light);
+      const double other = StrengthOf(lights, factors[j].light);
+      if (!(one > 0.0) || !(other > 0.0)) continue;
+      if (Near(factors[i].factor, other / one) && Near(factors[j].factor, one / other)) {
+        text += factors[i].light + " and " + factors[j].light + " have each other's light. ";
+      }
+    }
+  }
+  return text;
+}
+
+// "" where no number of them has a name.
+std::string NamedMistake(const LightFile& lights, const std::vector<ComparedReading>& rows,
+                         double max_error) {
+  const std::vector<LampFactor> factors = FactorsOf(rows, max_error);
+  if (std::string swapped = Swapped(lights, factors); !swapped.empty()) return swapped;
+  if (factors.empty() || !(factors.front().factor > 0.0)) return {};
+  const double shared = factors.front().factor;
+  if (!std::ranges::all_of(factors, [&](const LampFactor& f) { return Near(f.factor, shared); })) {
+    return {};
+  }
+  const std::string named = UnitMistakeOf(shared);
+  if (named.empty() && factors.size() < 2) return {};
+  return Joined(factors, ", ", &LampFactor::light) + (factors.size() > 1 ? " alike" : "") + " by " +
+         RoundedText(shared, 4) + (named.empty() ? "" : ", which is " + named) + ". ";
+}
+
 }  // namespace
 
 std::vector<ComparedReading> ComparedWith(const CalibratedSession& calibrated,
@@ -98,7 +200,7 @@ std::string CauseOfStraying(std::string_view preset, const CalibratedSession& ca
              ". Exported without it, it is " + PercentText(*left) + " off";
     }
   }
-  if (!strays) return again;
+  if (!strays) return NamedMistake(calibrated.lights, rows, max_error) + again;
   const std::string title(target->title.empty() ? target->ending : target->title);
   const std::string held = Substitutes(fresh->substituted, fresh_rows, max_error);
   const std::string lacks =
@@ -109,7 +211,8 @@ std::string CauseOfStraying(std::string_view preset, const CalibratedSession& ca
   if (AreAlike(rows, fresh_rows)) {
     return "The file is as exported, nothing in it was edited: " + lacks + instead;
   }
-  return again + "; that leaves " + PercentText(*left) + ": " + lacks + instead;
+  return NamedMistake(calibrated.lights, rows, max_error) + again + "; that leaves " +
+         PercentText(*left) + ": " + lacks + instead;
 }
 
 }  // namespace lightcal::app

@@ -323,6 +323,37 @@ class Edited(unittest.TestCase):
             [n for n in document["nodes"] if n["name"] == "bulb"][0]["translation"][1] += 1.0
         self.assertIn("bulb", self.check(self.rig, self.gltf(self.rig, lifted))[1])
 
+    # ---- mistakes that have a name ----
+
+    def times(self, factors):
+        def change(document):
+            for definition in document["extensions"]["KHR_lights_punctual"]["lights"]:
+                definition["intensity"] *= factors.get(definition["name"], 1.0)
+        return self.check(self.rig, self.gltf(self.rig, change))[1]
+
+    def test_units_and_swaps_are_named(self):
+        both = 4 * math.pi
+        self.assertIn("bulb, fill alike by 12.57, which is 4 pi: lumens where candela belong",
+                      self.times({"bulb": both, "fill": both}).replace("fill, bulb", "bulb, fill"))
+        self.assertIn("sun by 0.001000, which is 1/1000: kilolux", self.times({"sun": 1e-3}))
+        self.assertIn("bulb by 54.35, which is 683/(4 pi): candela where watts belong",
+                      self.times({"bulb": 683 / (4 * math.pi)}))
+        self.assertNotIn("which is", self.times({"bulb": 1.7}))
+
+        def swap(document):
+            nodes = {n["name"]: n["extensions"]["KHR_lights_punctual"] for n in document["nodes"]
+                     if "extensions" in n}
+            nodes["bulb"]["light"], nodes["fill"]["light"] = nodes["fill"]["light"], nodes["bulb"]["light"]
+        said = self.check(self.rig, self.gltf(self.rig, swap))[1]
+        self.assertRegex(said, "bulb and fill have each other's light")
+
+    def test_an_edit_of_the_whole_lamp_is_no_cone(self):
+        def change(document):
+            document["extensions"]["KHR_lights_punctual"]["lights"][1]["intensity"] *= 4 * math.pi
+        said = self.check(self.loose, self.gltf(self.loose, change))[1]
+        self.assertIn("key by 12.57", said)
+        self.assertNotIn("cone may stray", said)
+
 
 if __name__ == "__main__":
     unittest.main()
