@@ -14,7 +14,6 @@
 namespace lightcal {
 namespace {
 
-constexpr double kSunNits = 2e7, kSunDegrees = 5.0;
 constexpr double kAreaDistance_m = 1.0;
 
 Vec3 DirectionOf(const MeasuredDome& measured, std::size_t index) {
@@ -22,8 +21,7 @@ Vec3 DirectionOf(const MeasuredDome& measured, std::size_t index) {
 }
 
 bool IsSun(const DomeLight& light) {
-  return light.luminance.value() > kSunNits && light.direction[2] > 0.0 &&
-         DegreesFromRadians(light.angular_diameter) < kSunDegrees;
+  return IsBrightAsSun(light) && light.direction[2] > 0.0;
 }
 
 // The same illuminance from a rectangle that fills the same angles.

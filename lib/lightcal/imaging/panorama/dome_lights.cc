@@ -265,6 +265,11 @@ std::vector<DomeLight> MeasureDomeLights(const Dome& dome, std::vector<BrightBod
   return lights;
 }
 
+bool IsBrightAsSun(const DomeLight& light) {
+  constexpr double kSunNits = 2e7;
+  return light.luminance.value() > kSunNits && light.angular_diameter < kWidestSun;
+}
+
 void TakeOut(const DomeLight& light, Dome& dome) {
   const auto& luminance = dome.xyz_from_rgb[1];
   const auto channels = static_cast<std::size_t>(dome.channels);

@@ -19,6 +19,9 @@
 
 namespace lightcal {
 
+// A sun seen through haze or blurred is no wider.
+inline constexpr Radians kWidestSun = RadiansFromDegrees(5.0);
+
 // A lat-long panorama in cd/m^2.
 struct Dome {
   int width = 0, height = 0, channels = 1;
@@ -65,6 +68,9 @@ struct DomeLight {
 [[nodiscard]] std::vector<DomeLight> MeasureDomeLights(const Dome& dome,
                                                        std::vector<BrightBody> bodies,
                                                        std::span<const std::uint8_t> clipped = {});
+
+// As bright as the sun alone can be (2e7 cd/m^2) and small.
+[[nodiscard]] bool IsBrightAsSun(const DomeLight& light);
 
 // Puts the light's fill in its place, in samples and luminance.
 void TakeOut(const DomeLight& light, Dome& dome);

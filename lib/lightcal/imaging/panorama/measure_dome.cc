@@ -301,6 +301,39 @@ void WarnOfClippedLights(MeasuredDome& measured) {
                                "{dome.shaded} where the picture is not in cd/m2)"});
 }
 
+// Outside the atmosphere the sun gives 133 klx at its mean distance, 138 at perihelion (Darula,
+// Kittler, Gueymard 2005), and clouds beside it add little.
+constexpr double kMoreThanSun_lx = 150e3;
+constexpr double kLowestSun_deg = 1.0;  // below the horizon: a tripod's tilt
+
+std::string WordsOfLight(const MeasuredDome& measured, const DomeLight& light) {
+  const AzimuthElevation at = AnglesOf(TurnedNorth(light.direction, measured.north));
+  return RoundedText(light.illuminance.value(), 3) + " lx at azimuth " +
+         RoundedText(at.azimuth_deg, 3) + ", elevation " + RoundedText(at.elevation_deg, 3);
+}
+
+// Where the unit is known; lights brightest first. What mirrors a sun above the horizon is no sun.
+void WarnOfImpossibleSuns(MeasuredDome& measured) {
+  if (!measured.unit_known) return;
+  const std::string& file = measured.input.files.front();
+  constexpr const char* kCauses =
+      ": is the panorama upside down or tilted, the reading that of another place, or the meter "
+      "turned otherwise ({dome.normal})?";
+  for (const DomeLight& light : measured.lights) {
+    if (light.illuminance.value() <= kMoreThanSun_lx) break;
+    measured.warnings.push_back(
+        {"brighter_than_sun", file,
+         WordsOfLight(measured, light) + ": no sun gives more than 138000" + kCauses});
+  }
+  const auto sun = std::ranges::find_if(measured.lights, IsBrightAsSun);
+  const double lowest = -std::sin(RadiansFromDegrees(kLowestSun_deg).value());
+  if (sun == measured.lights.end() || sun->direction[2] >= lowest) return;
+  measured.warnings.push_back({"sun_below_horizon", file,
+                               WordsOfLight(measured, *sun) +
+                                   ": as bright as the sun alone, and below the horizon" +
+                                   kCauses});
+}
+
 // What was inferred may outshine what was not.
 void OrderLights(MeasuredDome& measured) {
   std::ranges::stable_sort(measured.lights, [](const DomeLight& a, const DomeLight& b) {
@@ -342,6 +375,7 @@ Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request) {
   if (auto ok = SetScale(reading, measured); !ok) return Propagate(std::move(ok));
   OrderLights(measured);
   WarnOfClippedLights(measured);
+  WarnOfImpossibleSuns(measured);
   Warnings& warnings = measured.warnings;
   warnings.insert(warnings.begin(), measured.input.warnings.begin(), measured.input.warnings.end());
   return measured;

@@ -39,8 +39,8 @@ struct MeasuredDome {
                                   double sd_relative);
 
 // Refused: all_black, all_saturated, reading_beyond_view, and as ScaleDome.
-// Warned: maybe_clipped, scale_conflict, shading_conflict, clipped_lights_share, and what the input
-// warns of.
+// Warned: maybe_clipped, scale_conflict, shading_conflict, clipped_lights_share, brighter_than_sun
+// (a light of more than 150 klx), sun_below_horizon, and what the input warns of.
 [[nodiscard]] Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request);
 
 }  // namespace lightcal
