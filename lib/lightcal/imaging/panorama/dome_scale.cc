@@ -26,10 +26,6 @@ tl::unexpected<Error> NoLight() {
                  "{dome.normal} and that the picture is not black");
 }
 
-bool Faces(const DomeLight& light, const Vec3& normal) {
-  return Dot(light.direction, normal) >= kLeastCosine;
-}
-
 tl::unexpected<Error> FacedAway() {
   return Refused("lux_misses_light", "{dome.illuminance}",
                  "the meter faced away from the light that is to be solved from its reading; turn "
@@ -48,6 +44,9 @@ void Multiply(double factor, Dome& dome, std::vector<DomeLight>& lights) {
 }
 
 constexpr double kAgreeSd = 2.0;
+double ReadingsDifferBy(const DomeReading& reading) {
+  return kAgreeSd * std::numbers::sqrt2 * reading.sigma_relative;
+}
 
 // What a reading and the picture's own scale say together.
 DomeScale Agreed(double read_factor, double read_sd, std::optional<double> stated_sd) {
@@ -72,23 +71,34 @@ tl::unexpected<Error> SeveralClipped(std::ptrdiff_t count) {
                      "share the reading then");
 }
 
-// The light that the card was held before: the one that is clipped, else the brightest whose pixels
-// are what the card took away, else the brightest.
+// ln of what the card took the reading down by, over what it would have by the light's pixels.
+double OffPixels(const DomeReading& reading, double all, const DomeLight& light) {
+  const double rest = all - ByLight(light, reading.normal);
+  return std::log(reading.illuminance.value() / reading.shaded->value() * rest / all);
+}
+
+// The light that the card was held before: the one that is clipped, else the one whose pixels are
+// best what the card took away, else the brightest.
 Result<DomeLight*> ShadedLight(const DomeReading& reading, double all,
                                std::vector<DomeLight>& lights) {
   if (lights.empty()) {
     return Refused("no_light", "{dome.shaded}",
                    "the panorama shows no light that a card could have shaded");
   }
-  const auto faces = [&](const DomeLight& light) { return Faces(light, reading.normal); };
+  const auto faces = [&](const DomeLight& light) { return LightsMeter(light, reading.normal); };
   const auto lost = [&](const DomeLight& light) { return light.body.clipped && faces(light); };
   const std::ptrdiff_t clipped = std::ranges::count_if(lights, lost);
   if (clipped > 1) return SeveralClipped(clipped);
   if (clipped == 1) return &*std::ranges::find_if(lights, lost);
-  const auto shaded = std::ranges::find_if(lights, [&](const DomeLight& light) {
-    return ShadingOf(reading, all, light) == ShadingBy::kAsPixelsSay;
-  });
-  if (shaded != lights.end()) return &*shaded;
+  DomeLight* nearest = nullptr;
+  for (DomeLight& light : lights) {
+    if (ShadingOf(reading, all, light) != ShadingBy::kAsPixelsSay) continue;
+    if (nearest == nullptr ||
+        std::abs(OffPixels(reading, all, light)) < std::abs(OffPixels(reading, all, *nearest))) {
+      nearest = &light;
+    }
+  }
+  if (nearest != nullptr) return nearest;
   DomeLight& brightest = lights.front();
   if (!faces(brightest)) return FacedAway();
   const auto dimmer = [&](const DomeLight& light) {
@@ -133,7 +143,7 @@ Result<DomeScale> ByRest(const DomeReading& reading, double all, std::vector<Dom
   for (DomeLight& light : lights) {
     if (!light.body.clipped) continue;
     // What shone past the meter stays a lower bound, as long as something clipped lit it.
-    if (!Faces(light, reading.normal)) continue;
+    if (!LightsMeter(light, reading.normal)) continue;
     rest -= ByLight(light, reading.normal);
     weight += light.solid_angle.value() * Dot(light.direction, reading.normal);
     clipped.push_back(&light);
@@ -158,13 +168,21 @@ Result<DomeScale> ByRest(const DomeReading& reading, double all, std::vector<Dom
 
 }  // namespace
 
+bool LightsMeter(const DomeLight& light, const Vec3& normal) {
+  return Dot(light.direction, normal) >= kLeastCosine;
+}
+
+bool TookLight(const DomeReading& reading) {
+  const double ratio = reading.illuminance.value() / reading.shaded->value();
+  return std::log(ratio) > ReadingsDifferBy(reading);
+}
+
 ShadingBy ShadingOf(const DomeReading& reading, double all_lux, const DomeLight& light) {
-  if (!Faces(light, reading.normal)) return ShadingBy::kNotSeen;
+  if (!LightsMeter(light, reading.normal)) return ShadingBy::kNotSeen;
   const double rest = all_lux - ByLight(light, reading.normal);
   if (!(rest > 0.0)) return ShadingBy::kLess;
-  const double off =
-      std::log(reading.illuminance.value() / reading.shaded->value() * rest / all_lux);
-  if (std::abs(off) <= kAgreeSd * std::numbers::sqrt2 * reading.sigma_relative) {
+  const double off = OffPixels(reading, all_lux, light);
+  if (std::abs(off) <= ReadingsDifferBy(reading)) {
     return ShadingBy::kAsPixelsSay;
   }
   return off > 0.0 ? ShadingBy::kMore : ShadingBy::kLess;

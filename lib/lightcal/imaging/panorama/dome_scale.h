@@ -33,19 +33,25 @@ struct DomeScale {
   double shading_of_pixels = 1.0;
 };
 
+// Whether a meter that faces so sees a light well enough to measure it.
+[[nodiscard]] bool LightsMeter(const DomeLight& light, const Vec3& normal);
+
 // What two readings say of a light that a card may have kept from the meter: E_shaded / E is
 // R / E(n), within what two readings differ by, where its pixels hold all its light.
 enum class ShadingBy : std::uint8_t { kNotSeen, kLess, kAsPixelsSay, kMore };
 [[nodiscard]] ShadingBy ShadingOf(const DomeReading& reading, double all_lux,
                                   const DomeLight& light);
 
+// Whether the card took away more than two readings differ by.
+[[nodiscard]] bool TookLight(const DomeReading& reading);
+
 // With E(n) = integral of L max(0, n . w) dOmega over the whole panorama, R = E(n) - the lights
 // that are solved for (their flow . n), and d a light's direction:
 //   no light clipped, none shaded      factor = E_lux / E(n)
 //   `shaded` given                     factor = E_shaded / R, and the light that was shaded gives
 //                                      (E_lux - E_shaded) / (n . d) at normal incidence: the
-//                                      clipped one, else the brightest whose pixels are what the
-//                                      card took away, else the brightest
+//                                      clipped one, else that whose pixels are best what the card
+//                                      took away, else the brightest
 //   lights clipped, the scale absolute   factor = 1; the clipped light gives (E_lux - R) / (n . d);
 //                                      several share one luminance
 // The samples of dome and lights are multiplied. A picture that states how sure its scale is

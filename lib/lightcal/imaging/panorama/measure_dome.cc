@@ -2,7 +2,6 @@
 #include "lightcal/imaging/panorama/measure_dome.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -12,20 +11,15 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
+#include "lightcal/imaging/panorama/cut_off_lights.h"
 #include "lightcal/imaging/panorama/dome_holes.h"
 #include "lightcal/imaging/panorama/turn_north.h"
-#include "lightcal/imaging/scene/flat_top.h"
 #include "lightcal/imaging/scene/picture_luminance.h"
 #include "lightcal/photometry/half_range.h"
 
 namespace lightcal {
 namespace {
 
-// So many pixels that share the picture's largest value are clipped, or drawn.
-constexpr int kPlateau = 2;
-// What a light that may be clipped may hold of all that the meter saw: under a clear sky the sun
-// has up to nine tenths.
-constexpr double kMostMissing = 0.9;
 constexpr double kConflict = 0.25;
 constexpr double kMostHidden = 0.03;  // of a meter's view, in no picture
 constexpr double kMostHiddenByBall = 0.1;
@@ -103,139 +97,6 @@ Result<double> CheckSeen(const std::optional<DomeReading>& reading, MeasuredDome
                     " % of what lights it from a uniform sphere; turn it to where the pictures "
                     "look ({dome.normal}), or add views")
                        .c_str());
-}
-
-// `clipped_always`: that something is clipped is known, be it a pixel or two.
-std::vector<DomeLight> FindLights(const DomeInput& input, bool clipped_always) {
-  const Dome& dome = input.dome;
-  return MeasureDomeLights(
-      dome,
-      FindBrightBodies(dome.luminance(), dome.grid(),
-                       {.clipped = input.clipped, .clipped_always = clipped_always}),
-      input.clipped);
-}
-
-// Whether the one pixel that is brightest ends where a format does, or is as bright as any in two
-// channels alike, which no light is by chance in a picture with colour.
-bool IsCutOffPixel(const Dome& dome, std::size_t at) {
-  if (IsFormatsEnd(dome.nits[at])) return true;
-  if (dome.channels != 3) return false;
-  std::array<float, 3> most{};
-  bool colour = false;
-  for (std::size_t i = 0; i + 2 < dome.samples.size(); i += 3) {
-    for (std::size_t c = 0; c < 3; ++c) most[c] = std::max(most[c], dome.samples[i + c]);
-    colour = colour || dome.samples[i] != dome.samples[i + 1];
-  }
-  int alike = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::size_t next = (c + 1) % 3;
-    if (dome.samples[3 * at + c] == most[c] && most[c] == most[next]) ++alike;
-  }
-  return colour && alike > 0;
-}
-
-// The picture's largest value, where the picture is cut off there.
-std::optional<float> CutOffAt(const Dome& dome) {
-  const FlatTop top = TopOf(dome.nits);
-  const auto at = std::ranges::find(dome.nits, top.value) - dome.nits.begin();
-  const bool cut_off =
-      top.at == 1 ? IsCutOffPixel(dome, static_cast<std::size_t>(at)) : IsCutOff(top, kPlateau);
-  return cut_off ? std::optional(top.value) : std::nullopt;
-}
-
-// A few pixels at the picture's largest value, far above the rest: a sun too small to be a light by
-// what is left of it.
-bool EndsInFewPixels(const Dome& dome, float brightest) {
-  constexpr double kFew = 0.01, kFarAbove = 3.0;  // of the sphere; times the mean luminance
-  const LatLongGrid grid = dome.grid();
-  double at_limit = 0.0, sum = 0.0;
-  for (int y = 0; y < dome.height; ++y) {
-    const double omega = grid.SolidAngle(y);
-    for (const float v : dome.luminance().row(y)) {
-      sum += omega * double{v};
-      if (v >= brightest) at_limit += omega;
-    }
-  }
-  constexpr double kSphere = 4.0 * std::numbers::pi;
-  return at_limit<kFew * kSphere&& double{brightest}> kFarAbove * sum / kSphere;
-}
-
-// What may be clipped.
-struct Suspect {
-  int pixels = 0;
-  // Of the light they are of; absent: a few pixels far above the rest, which are none.
-  std::optional<AzimuthElevation> light;
-};
-std::optional<Suspect> SuspectOf(const MeasuredDome& measured, float brightest) {
-  const auto light = std::ranges::find_if(measured.lights, [&](const DomeLight& one) {
-    return one.body.peak_nits >= double{brightest};
-  });
-  if (light != measured.lights.end()) {
-    return Suspect{light->body.plateau, AnglesOf(TurnedNorth(light->direction, measured.north))};
-  }
-  if (!EndsInFewPixels(measured.input.dome, brightest)) return std::nullopt;
-  return Suspect{};
-}
-
-// "2 pixels of the light at ... share the picture's largest value"
-std::string WordsOf(const Suspect& suspect) {
-  constexpr const char* kShare = " share the picture's largest value";
-  if (!suspect.light) {
-    return std::string("a pixel or a few that are far brighter than the rest") + kShare;
-  }
-  const bool one = suspect.pixels == 1;
-  return std::to_string(suspect.pixels) + (one ? " pixel" : " pixels") +
-         " of the light at azimuth " + RoundedText(suspect.light->azimuth_deg, 3) + ", elevation " +
-         RoundedText(suspect.light->elevation_deg, 3) +
-         (one ? " ends at the picture's largest value" : kShare);
-}
-
-// Whether a card took away more than the pixels of any light give.
-bool ShadedBeyondPixels(const DomeReading& reading, const MeasuredDome& measured) {
-  const Dome& dome = measured.input.dome;
-  const double all = IlluminanceOn(dome.luminance(), dome.grid(), reading.normal).value();
-  return std::ranges::all_of(measured.lights, [&](const DomeLight& light) {
-    const ShadingBy by = ShadingOf(reading, all, light);
-    return by == ShadingBy::kNotSeen || by == ShadingBy::kMore;
-  });
-}
-
-// A plateau at the picture's largest value is either clipped or drawn. In cd/m^2 the reading tells:
-// it exceeds what the picture holds.
-void JudgePlateaus(const DomeRequest& request, const std::optional<DomeReading>& reading,
-                   MeasuredDome& measured) {
-  DomeInput& input = measured.input;
-  if (request.input.clip || std::ranges::find(input.clipped, 1) != input.clipped.end()) return;
-  const std::optional<float> brightest = CutOffAt(input.dome);
-  if (!brightest) return;
-  const bool one_reading = reading && !reading->shaded;
-  const std::optional<Suspect> suspect = SuspectOf(measured, *brightest);
-  // Only a reading would be divided by what a few pixels lack.
-  if (!suspect || (!suspect->light && !reading)) return;
-  const auto exceeds = [&] {
-    const double seen =
-        IlluminanceOn(input.dome.luminance(), input.dome.grid(), reading->normal).value();
-    const double u95 = input.scale_u95_relative.value_or(kUnstatedScaleU95);
-    return reading->illuminance.value() > seen * (1.0 + u95);
-  };
-  // A card that took away more than any light shows knows of one that is clipped.
-  if (one_reading ? input.absolute && exceeds()
-                  : reading && ShadedBeyondPixels(*reading, measured)) {
-    input.clipped = PixelsFrom(input.dome.luminance(), double{*brightest});
-    measured.lights = FindLights(input, true);
-    return;
-  }
-  if (!suspect->light && !one_reading) return;
-  if (one_reading) {
-    const double of_file = input.scale_u95_relative.value_or(kUnstatedScaleU95);
-    measured.missing_sd = (input.absolute ? of_file : kMostMissing) / kZ95;
-  }
-  measured.warnings.push_back(
-      {"maybe_clipped", input.files.front(),
-       WordsOf(*suspect) + "; clipped, they lack light" +
-           (one_reading ? " that the meter saw, and the scale holds that" : "") +
-           ": say from where samples are clipped ({dome.clip}; above them all if these were drawn) "
-           "and read again with the light shaded ({dome.shaded})"});
 }
 
 Result<void> SetScale(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
@@ -371,7 +232,7 @@ Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request) {
     reading->sigma_relative = std::hypot(reading->sigma_relative, *hidden / 2.0);
   }
   measured.lights = FindLights(measured.input, !measured.input.clipped.empty());
-  JudgePlateaus(request, reading, measured);
+  if (auto ok = JudgePlateaus(request, reading, measured); !ok) return Propagate(std::move(ok));
   if (auto ok = SetScale(reading, measured); !ok) return Propagate(std::move(ok));
   OrderLights(measured);
   WarnOfClippedLights(measured);
