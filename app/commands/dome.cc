@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal dome: a panorama as a calibrated environment, its lights as lights.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "dome/dome_outputs.h"
 #include "dome/dome_words.h"
 #include "input_files.h"
+#include "lamp_words.h"
 #include "lightcal/calibrate/dome/make_dome.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/core/numbers_text.h"
@@ -91,9 +93,8 @@ Node DomeLightNode(const MeasuredDome& measured, std::size_t i, const std::strin
   const DomeLight& light = measured.lights[i];
   const Vec3 direction = TurnedNorth(light.direction, measured.north);
   const AzimuthElevation at = AnglesOf(direction);
-  const double lux = light.illuminance.value();
   return {{"name", name},
-          {"illuminance_lx", DocumentOf(LuxOfDome(measured, lux, measured.sd_relative[i]))},
+          {"illuminance_lx", DocumentOf(LuxOfLight(measured, i))},
           {"source", SourceOf(light)},
           {"direction", direction},
           {"azimuth_deg", at.azimuth_deg},
@@ -102,6 +103,28 @@ Node DomeLightNode(const MeasuredDome& measured, std::size_t i, const std::strin
           {"luminance_nits", light.luminance},
           {"color", light.xy ? ColorNode(*light.xy) : Node()},
           {"extracted", taken}};
+}
+
+std::string ScaleText(const MeasuredDome& measured) {
+  if (!measured.scale_u95_relative) return "";
+  const double u95 = *measured.scale_u95_relative;
+  if (!(measured.scale.range_ln > 0.0)) return " ± " + RoundedText(100.0 * u95, 2) + " %";
+  return ", anything from " + RoundedText(std::exp(-u95), 2) + " to " +
+         RoundedText(std::exp(u95), 2) + " times that";
+}
+
+Node ScaleNode(const MeasuredDome& measured) {
+  const double factor = measured.scale.factor;
+  Node node = {{"factor", factor}, {"source", measured.scale_source}};
+  if (!(measured.scale.range_ln > 0.0) || !measured.scale_u95_relative) {
+    node.Put({{"u95_relative", measured.scale_u95_relative}});
+    return node;
+  }
+  const double ln = *measured.scale_u95_relative;
+  node.Put({{"u95_relative", std::sinh(ln)},
+            {"low95", factor * std::exp(-ln)},
+            {"high95", factor * std::exp(ln)}});
+  return node;
 }
 
 std::string Table(const MadeDome& made) {
@@ -114,9 +137,8 @@ std::string Table(const MadeDome& made) {
     const CctResult cct = light.xy ? CctFromXy(*light.xy) : CctResult{};
     const double lux = light.illuminance.value();
     rows.push_back({made.names[i],
-                    measured.unit_known
-                        ? ValueWithPercent(lux, kZ95 * measured.sd_relative[i] * lux, "lx")
-                        : RoundedText(lux, 4),
+                    measured.unit_known ? ValueAndInterval(LuxOfLight(measured, i), "lx")
+                                        : RoundedText(lux, 4),
                     RoundedText(at.azimuth_deg, 4) + "°", RoundedText(at.elevation_deg, 4) + "°",
                     RoundedText(DegreesFromRadians(light.angular_diameter), 2) + "°",
                     cct.valid() ? RoundedText(cct.temperature.value(), 3) + " K" : "-",
@@ -128,10 +150,9 @@ std::string Table(const MadeDome& made) {
       rows);
   const auto lux = [&](double v) { return RoundedText(v, 4) + (measured.unit_known ? " lx" : ""); };
   return text + "\nupward plane: " + lux(up.lights) + " from the lights + " + lux(up.remaining) +
-         " from the dome = " + lux(up.total) + "; scale: " + measured.scale_source +
-         (measured.scale_u95_relative
-              ? " ± " + RoundedText(100.0 * *measured.scale_u95_relative, 2) + " %"
-              : "") +
+         " from the dome = " + lux(up.total) +
+         (up.most ? ", up to " + lux(up.lights + *up.most) : "") +
+         "; scale: " + measured.scale_source + ScaleText(measured) +
          (measured.unit_known ? ""
                               : ", a unit that nobody states: true to each other, not in lux") +
          "\n";
@@ -190,9 +211,10 @@ Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::strin
   }
   Node illuminance = Node::Table();
   for (const DomePlane& plane : made.planes) {
-    illuminance.Put(
-        plane.name,
-        {{"total", plane.total}, {"lights", plane.lights}, {"remaining", plane.remaining}});
+    illuminance.Put(plane.name, {{"total", plane.total},
+                                 {"lights", plane.lights},
+                                 {"remaining", plane.remaining},
+                                 {"most", plane.most ? Node(plane.lights + *plane.most) : Node()}});
   }
   Node plate;
   const auto& asked = plan.settings.plate;
@@ -203,10 +225,7 @@ Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::strin
   const bool several = input.views.size() > 1;
   return {{"lights", lights},
           {"illuminance_lx", illuminance},
-          {"scale",
-           {{"factor", measured.scale.factor},
-            {"source", measured.scale_source},
-            {"u95_relative", measured.scale_u95_relative}}},
+          {"scale", ScaleNode(measured)},
           {"width", input.dome.width},
           {"height", input.dome.height},
           {"white_luminance_nits", asked ? MaximumLuminance(*asked) : Nits(1.0)},

@@ -20,9 +20,7 @@ Vec3 DirectionOf(const MeasuredDome& measured, std::size_t index) {
   return TurnedNorth(measured.lights[index].direction, measured.north);
 }
 
-bool IsSun(const DomeLight& light) {
-  return IsBrightAsSun(light) && light.direction[2] > 0.0;
-}
+bool IsSun(const DomeLight& light) { return IsBrightAsSun(light) && light.direction[2] > 0.0; }
 
 // The same illuminance from a rectangle that fills the same angles.
 void BecomeRect(const DomeLight& seen, FittedLight& light) {
@@ -108,9 +106,7 @@ Result<LightFile> LightFileOfDome(const MeasuredDome& measured, std::size_t coun
     const DomeLight& seen = measured.lights[i];
     light.aim = session.lights[i].aim;
     light.ambient_lx.reset();  // what surrounds it is the dome
-    if (!measured.unit_known) {
-      light.illuminance_lx = LuxOfDome(measured, seen.illuminance.value(), measured.sd_relative[i]);
-    }
+    if (!measured.unit_known || seen.at_most) light.illuminance_lx = LuxOfLight(measured, i);
     light.angular_diameter_deg = DegreesFromRadians(seen.angular_diameter);
     if (*light.angular_diameter_deg > kAreaLightDegrees) BecomeRect(seen, light);
   }

@@ -93,12 +93,37 @@ void CountLights(const MeasuredDome& measured, std::size_t extracted,
   }
 }
 
+Uncertain LuxThatRemains(const MeasuredDome& measured, double lux) {
+  return LuxOfDome(measured, lux, measured.scale_u95_relative.value_or(0.0) / kZ95);
+}
+
+// With all that lights left in the dome may give. Where these leave the scale open, they give most
+// where it is least.
+std::optional<double> MostThatRemains(const MeasuredDome& measured, std::size_t extracted,
+                                      const DomePlane& plane) {
+  if (!measured.unit_known) return std::nullopt;
+  double lacking = 0.0;
+  for (std::size_t i = extracted; i < measured.lights.size(); ++i) {
+    const DomeLight& light = measured.lights[i];
+    if (!light.at_most) continue;
+    const double shown = light.inferred ? 0.0 : light.illuminance.value();
+    const Vec3 direction = TurnedNorth(light.direction, measured.north);
+    lacking += (light.at_most->value() - shown) * std::max(0.0, Dot(direction, plane.normal));
+  }
+  if (!(lacking > 0.0)) return std::nullopt;
+  const Uncertain lux = LuxThatRemains(measured, plane.remaining);
+  if (!(measured.scale.range_ln > 0.0)) return HighEnd(lux) + lacking;
+  return std::max(HighEnd(lux), LowEnd(lux) + lacking);
+}
+
 // After the dome was finished: its luminances are those of the answer's frame.
-void CountDome(const MeasuredDome& measured, std::vector<DomePlane>& planes) {
+void CountDome(const MeasuredDome& measured, std::size_t extracted,
+               std::vector<DomePlane>& planes) {
   const Dome& dome = measured.input.dome;
   for (DomePlane& plane : planes) {
     plane.remaining = IlluminanceOn(dome.luminance(), dome.grid(), plane.normal).value();
     plane.total = plane.lights + plane.remaining;
+    plane.most = MostThatRemains(measured, extracted, plane);
   }
 }
 
@@ -119,8 +144,10 @@ FittedLight EnvironmentOf(const MadeDome& made) {
   FittedLight light;
   light.name = "environment";
   light.kind = LightKind::kDome;
-  light.illuminance_lx = LuxOfDome(made.measured, made.planes.front().remaining,
-                                   made.measured.scale_u95_relative.value_or(0.0) / kZ95);
+  const DomePlane& up = made.planes.front();
+  Uncertain lux = LuxThatRemains(made.measured, up.remaining);
+  if (up.most) lux = {lux.value, 0.5 * (*up.most - LowEnd(lux)), LowEnd(lux), *up.most};
+  light.illuminance_lx = lux;
   light.color.xy = XyFromAbove(made.measured.input.dome);
   light.environment = EnvironmentFile{kDomePicture, "latlong", made.white_luminance.value()};
   return light;
@@ -170,7 +197,7 @@ Result<MadeDome> MakeDome(MeasuredDome measured, const DomeRequest& request, con
   made.planes = PlanesOf(request);
   CountLights(made.measured, made.extracted, made.planes);
   FinishDome(made.extracted, settings, made.measured);
-  CountDome(made.measured, made.planes);
+  CountDome(made.measured, made.extracted, made.planes);
   if (settings.plate) made.white_luminance = Nits(1.0 / SamplesPerNit(settings.plate));
   if (made.planes.front().remaining > 0.0) made.light_file.lights.push_back(EnvironmentOf(made));
   return made;

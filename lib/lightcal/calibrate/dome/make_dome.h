@@ -36,6 +36,7 @@ struct DomePlane {
   std::string name;  // "up" "down" "front" "right" "back" "left" "reading"
   Vec3 normal;
   double total = 0.0, lights = 0.0, remaining = 0.0;  // [lx], of those taken out and of the rest
+  std::optional<double> most{};  // of `remaining`, where it holds light that may be clipped
 };
 
 struct MadeDome {
@@ -43,8 +44,8 @@ struct MadeDome {
   //   sample = L / L_max of the plate's exposure, or cd/m^2 without one
   // input.dome.nits stay cd/m^2. Colours of lights are as the dome has them.
   MeasuredDome measured;
-  std::vector<std::string> names;       // of its lights
-  std::size_t extracted = 0;            // the first so many were taken out
+  std::vector<std::string> names;  // of its lights
+  std::size_t extracted = 0;       // the first so many were taken out
   // These, then the dome itself (kind dome, "environment", as kDomePicture) unless it is black from
   // above; with provenance.
   LightFile light_file;

@@ -21,68 +21,6 @@
 namespace lightcal {
 namespace {
 
-// So many pixels that share the picture's largest value are clipped, or drawn.
-constexpr int kPlateau = 2;
-// What a light that may be clipped may hold of all that the meter saw: under a clear sky the sun
-// has up to nine tenths.
-constexpr double kMostMissing = 0.9;
-
-// Whether the one pixel that is brightest ends where a format does, or is as bright as any in two
-// channels alike, which no light is by chance in a picture with colour.
-bool IsCutOffPixel(const Dome& dome, std::size_t at) {
-  if (IsFormatsEnd(dome.nits[at])) return true;
-  if (dome.channels != 3) return false;
-  std::array<float, 3> most{};
-  bool colour = false;
-  for (std::size_t i = 0; i + 2 < dome.samples.size(); i += 3) {
-    for (std::size_t c = 0; c < 3; ++c) most[c] = std::max(most[c], dome.samples[i + c]);
-    colour = colour || dome.samples[i] != dome.samples[i + 1];
-  }
-  int alike = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::size_t next = (c + 1) % 3;
-    if (dome.samples[3 * at + c] == most[c] && most[c] == most[next]) ++alike;
-  }
-  return colour && alike > 0;
-}
-
-// A channel's largest value, where it is cut off there: what is smooth, noisy or of eight bits of
-// mantissa has neighbours within 2 %.
-std::optional<float> ChannelEnd(const Dome& dome, std::size_t channel) {
-  constexpr int kLeast = 4, kMoreThanNear = 4;
-  constexpr float kNear = 0.98F;
-  float most = 0.0F;
-  for (std::size_t i = channel; i < dome.samples.size(); i += 3) {
-    most = std::max(most, dome.samples[i]);
-  }
-  int at = 0, near = 0;
-  for (std::size_t i = channel; i < dome.samples.size(); i += 3) {
-    const float v = dome.samples[i];
-    if (v > kNear * most) ++(v == most ? at : near);
-  }
-  return at >= kLeast && at > kMoreThanNear * near ? std::optional(most) : std::nullopt;
-}
-
-// Pixels at the picture's largest luminance, and at a channel's largest value, where they are cut
-// off there: 1. Empty: nothing is.
-std::vector<std::uint8_t> CutOffPixels(const Dome& dome) {
-  const FlatTop top = TopOf(dome.nits);
-  const auto at = std::ranges::find(dome.nits, top.value) - dome.nits.begin();
-  const bool cut_off =
-      top.at == 1 ? IsCutOffPixel(dome, static_cast<std::size_t>(at)) : IsCutOff(top, kPlateau);
-  std::vector<std::uint8_t> pixels;
-  if (cut_off) pixels = PixelsFrom(dome.luminance(), double{top.value});
-  for (std::size_t c = 0; c < 3 && dome.channels == 3; ++c) {
-    const std::optional<float> end = ChannelEnd(dome, c);
-    if (!end) continue;
-    pixels.resize(dome.nits.size(), 0);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      if (dome.samples[3 * i + c] >= *end) pixels[i] = 1;
-    }
-  }
-  return pixels;
-}
-
 // A few pixels far above the rest: a sun too small to be a light by what is left of it.
 bool AreFewAndBright(const Dome& dome, const std::vector<std::uint8_t>& pixels) {
   constexpr double kFew = 0.01, kFarAbove = 3.0;  // of the sphere; times the mean luminance
@@ -99,6 +37,19 @@ bool AreFewAndBright(const Dome& dome, const std::vector<std::uint8_t>& pixels) 
   return omega_ends < kFew * kSphere && ends * kSphere > kFarAbove * all * omega_ends;
 }
 
+// Whether any is white in a picture with colour, as what is clipped in all channels alike.
+bool AnyIsWhite(const Dome& dome, const std::vector<std::uint8_t>& pixels) {
+  if (dome.channels != 3) return false;
+  bool colour = false, any = false;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const float* const rgb = &dome.samples[3 * i];
+    const bool white = rgb[0] == rgb[1] && rgb[1] == rgb[2];
+    any |= white && pixels[i] != 0;
+    colour |= !white;
+  }
+  return colour && any;
+}
+
 int EndsOf(const DomeLight& light, const std::vector<std::uint8_t>& pixels) {
   const auto ends = [&](std::int32_t i) { return pixels[static_cast<std::size_t>(i)] != 0; };
   return static_cast<int>(std::ranges::count_if(light.body.pixels, ends));
@@ -107,7 +58,8 @@ int EndsOf(const DomeLight& light, const std::vector<std::uint8_t>& pixels) {
 // What may be clipped.
 struct Suspect {
   int pixels = 0;
-  // Of the light they are of; absent: a few pixels far above the rest, which are none.
+  // Of the light they are of; absent: a few pixels far above the rest, or white ones, which are
+  // none.
   std::optional<AzimuthElevation> light;
 };
 std::optional<Suspect> SuspectOf(const MeasuredDome& measured,
@@ -116,7 +68,8 @@ std::optional<Suspect> SuspectOf(const MeasuredDome& measured,
     const int ends = EndsOf(light, pixels);
     if (ends > 0) return Suspect{ends, AnglesOf(TurnedNorth(light.direction, measured.north))};
   }
-  if (!AreFewAndBright(measured.input.dome, pixels)) return std::nullopt;
+  const Dome& dome = measured.input.dome;
+  if (!AreFewAndBright(dome, pixels) && !AnyIsWhite(dome, pixels)) return std::nullopt;
   return Suspect{};
 }
 
@@ -124,13 +77,48 @@ std::optional<Suspect> SuspectOf(const MeasuredDome& measured,
 std::string WordsOf(const Suspect& suspect) {
   constexpr const char* kShare = " share the picture's largest value";
   if (!suspect.light) {
-    return std::string("a pixel or a few that are far brighter than the rest") + kShare;
+    return std::string("pixels that are far brighter than the rest, or white as what is clipped,") +
+           kShare;
   }
   const bool one = suspect.pixels == 1;
   return std::to_string(suspect.pixels) + (one ? " pixel" : " pixels") +
          " of the light at azimuth " + RoundedText(suspect.light->azimuth_deg, 3) + ", elevation " +
          RoundedText(suspect.light->elevation_deg, 3) +
          (one ? " ends at the picture's largest value" : kShare);
+}
+
+bool AnyFaces(const Dome& dome, const std::vector<std::uint8_t>& pixels, const Vec3& normal) {
+  const LatLongGrid grid = dome.grid();
+  for (std::size_t at = 0; at < pixels.size(); ++at) {
+    const auto i = static_cast<std::int32_t>(at);
+    if (pixels[at] != 0 && Dot(grid.Direction(grid.X(i), grid.Y(i)), normal) > 0.0) return true;
+  }
+  return false;
+}
+
+// Of the lights, those that hold such a pixel; of pixels too few for that, the lights they would
+// be.
+void MarkMaybeClipped(const std::vector<std::uint8_t>& pixels, MeasuredDome& measured) {
+  bool any = false;
+  for (DomeLight& light : measured.lights) {
+    light.maybe_clipped = EndsOf(light, pixels) > 0;
+    any |= light.maybe_clipped;
+  }
+  if (any) return;
+  DomeInput marked = measured.input;
+  marked.clipped = pixels;
+  measured.lights = FindLights(marked, true);
+  for (DomeLight& light : measured.lights) {
+    light.maybe_clipped = light.body.clipped;
+    light.body.clipped = false;
+  }
+}
+
+std::string WhatItOpens(bool lit, bool absolute) {
+  if (!lit) return ", and the picture's lux are a lower bound";
+  if (absolute) return " that the meter saw, and the scale holds that";
+  return " that the meter saw, so the scale is anything from the picture as it is down to where "
+         "they gave nearly all of the reading, or as much as the sun can";
 }
 
 // What a card says of lights that end at the picture's largest value.
@@ -206,19 +194,19 @@ Result<void> JudgePlateaus(const DomeRequest& request, const std::optional<DomeR
                            MeasuredDome& measured) {
   DomeInput& input = measured.input;
   if (request.input.clip || std::ranges::find(input.clipped, 1) != input.clipped.end()) return {};
-  std::vector<std::uint8_t> pixels = CutOffPixels(input.dome);
+  const Dome& dome = input.dome;
+  std::vector<std::uint8_t> pixels = CutOffPixels(dome.samples, dome.channels, dome.nits);
   if (pixels.empty()) return {};
   const bool one_reading = reading && !reading->shaded;
   const std::optional<Suspect> suspect = SuspectOf(measured, pixels);
-  // Only a reading would be divided by what a few pixels lack.
-  if (!suspect || (!suspect->light && !reading)) return {};
+  if (!suspect) return {};
+  const bool lit = one_reading && AnyFaces(dome, pixels, reading->normal);
   const auto exceeds = [&] {
-    const double seen =
-        IlluminanceOn(input.dome.luminance(), input.dome.grid(), reading->normal).value();
+    const double seen = IlluminanceOn(dome.luminance(), dome.grid(), reading->normal).value();
     const double u95 = input.scale_u95_relative.value_or(kUnstatedScaleU95);
     return reading->illuminance.value() > seen * (1.0 + u95);
   };
-  bool clipped = one_reading && input.absolute && exceeds();
+  bool clipped = lit && input.absolute && exceeds();
   if (reading && reading->shaded) {
     const auto card = JudgeCard(*reading, pixels, measured);
     if (!card) return tl::unexpected(card.error());
@@ -229,17 +217,18 @@ Result<void> JudgePlateaus(const DomeRequest& request, const std::optional<DomeR
     measured.lights = FindLights(input, true);
     return {};
   }
-  if (!suspect->light && !one_reading) return {};
-  if (one_reading) {
-    const double of_file = input.scale_u95_relative.value_or(kUnstatedScaleU95);
-    measured.missing_sd = (input.absolute ? of_file : kMostMissing) / kZ95;
+  if (!suspect->light && reading && reading->shaded) return {};
+  MarkMaybeClipped(pixels, measured);
+  if (lit && input.absolute) {
+    measured.missing_sd = input.scale_u95_relative.value_or(kUnstatedScaleU95) / kZ95;
   }
   measured.warnings.push_back(
       {"maybe_clipped", input.files.front(),
-       WordsOf(*suspect) + "; clipped, they lack light" +
-           (one_reading ? " that the meter saw, and the scale holds that" : "") +
-           ": say from where samples are clipped ({dome.clip}; above them all if these were drawn) "
-           "and read again with the light shaded ({dome.shaded})"});
+       WordsOf(*suspect) + "; clipped, they lack light" + WhatItOpens(lit, input.absolute) +
+           ". To be sure: read again with the light shaded ({dome.shaded}) or the meter turned "
+           "away from it ({dome.normal}), merge a bracket with a darker frame ({MergeBracket}), "
+           "or say from where samples are clipped ({dome.clip}; above them all if these were "
+           "drawn)"});
   return {};
 }
 

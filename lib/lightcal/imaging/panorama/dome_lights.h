@@ -57,7 +57,11 @@ struct DomeLight {
   std::optional<Xy> xy;                             // of a picture with colour
   double background_sd_relative = 0.0;  // what the unevenness around may have added or hidden
   bool inferred = false;                // illuminance is from readings, not from the pixels
-  std::vector<float> fill;              // samples that go to body.pixels when it is taken out
+  bool maybe_clipped = false;           // it ends where the picture does
+  // Of one that may be clipped, in a known unit: the ends of its illuminance's interval, where they
+  // are not those of the scale.
+  std::optional<Lux> at_least, at_most;
+  std::vector<float> fill;  // samples that go to body.pixels when it is taken out
 };
 
 // What bodies bring above a smooth continuation of what surrounds them: each pixel's fill is the

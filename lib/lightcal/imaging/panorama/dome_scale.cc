@@ -4,20 +4,33 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <string>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/uncertain.h"
 
 namespace lightcal {
 namespace {
 
+constexpr double kMostOverRest = 19.0;
+constexpr double kSunOutside_lx = 138e3;
 constexpr double kLeastCosine = 0.05;  // grazing light is no measurement of its source
 
 std::string LuxText(double lux) { return RoundedText(lux, 4) + " lx"; }
 
 double ByLight(const DomeLight& light, const Vec3& normal) {
   return std::max(0.0, Dot(light.flow, normal));
+}
+
+// Infinite of what is no sun.
+double MostOfSun(std::span<const DomeLight* const> lights, const Vec3& normal) {
+  if (lights.size() != 1 || !(lights.front()->direction[2] > 0.0) ||
+      !(lights.front()->angular_diameter < kWidestSun)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return kSunOutside_lx * std::max(0.0, Dot(lights.front()->direction, normal));
 }
 
 tl::unexpected<Error> NoLight() {
@@ -137,15 +150,68 @@ Result<DomeScale> ByShading(const DomeReading& reading, double all, std::optiona
   return scale;
 }
 
+// Lights that share so many lux on the meter, by their solid angles.
+class Shares {
+ public:
+  Shares(std::span<DomeLight* const> lights, const Vec3& normal) {
+    for (const DomeLight* light : lights) {
+      weight_ += light->solid_angle.value() * Dot(light->direction, normal);
+    }
+  }
+  // At normal incidence.
+  [[nodiscard]] Lux Of(const DomeLight& light, double on_meter) const {
+    return Lux(on_meter * light.solid_angle.value() / weight_);
+  }
+
+ private:
+  double weight_ = 0.0;
+};
+
+Result<DomeScale> ByRange(const DomeReading& reading, double all, Dome& dome,
+                          std::vector<DomeLight>& lights) {
+  std::vector<DomeLight*> ends;
+  double shown = 0.0;
+  for (DomeLight& light : lights) {
+    const double part = ByLight(light, reading.normal);
+    if (!light.maybe_clipped || !(part > 0.0)) continue;
+    ends.push_back(&light);
+    shown += part;
+  }
+  const double rest = all - shown;
+  if (!(rest > 0.0)) return NoLight();
+  const double lux = reading.illuminance.value();
+  const double high = lux / all;
+  const std::vector<const DomeLight*> seen(ends.begin(), ends.end());
+  // E = k (rest + most(rest)): once by what the rest allows, once by what a sun does.
+  const double by_rest = lux / (rest + std::max(kMostOverRest * rest, 2.0 * shown));
+  const double sun = MostOfSun(seen, reading.normal);
+  const double by_sun = (lux - sun) / rest;
+  const double low = by_sun < high ? std::max(by_rest, by_sun) : by_rest;
+  DomeScale scale = Agreed(std::sqrt(low * high), reading.sigma_relative, std::nullopt);
+  scale.range_ln = 0.5 * std::log(high / low);
+  Multiply(scale.factor, dome, lights);
+  std::erase_if(ends, [&](const DomeLight* light) { return !LightsMeter(*light, reading.normal); });
+  const Shares shares(ends, reading.normal);
+  const double error = kZ95 * reading.sigma_relative;
+  for (DomeLight* light : ends) {
+    const double as_shown = light->illuminance.value() / scale.factor;
+    InferIlluminance(shares.Of(*light, lux - scale.factor * rest), *light);
+    light->at_least = Lux(std::min(light->illuminance.value(), high * as_shown) * (1.0 - error));
+    light->at_most = shares.Of(*light, lux * (1.0 + error) - low * rest);
+    ++scale.inferred;
+  }
+  scale.inferred_sd_relative = reading.sigma_relative;
+  return scale;
+}
+
 Result<DomeScale> ByRest(const DomeReading& reading, double all, std::vector<DomeLight>& lights) {
   std::vector<DomeLight*> clipped;
-  double rest = all, weight = 0.0;
+  double rest = all;
   for (DomeLight& light : lights) {
     if (!light.body.clipped) continue;
     // What shone past the meter stays a lower bound, as long as something clipped lit it.
     if (!LightsMeter(light, reading.normal)) continue;
     rest -= ByLight(light, reading.normal);
-    weight += light.solid_angle.value() * Dot(light.direction, reading.normal);
     clipped.push_back(&light);
   }
   if (clipped.empty()) return FacedAway();
@@ -158,8 +224,9 @@ Result<DomeScale> ByRest(const DomeReading& reading, double all, std::vector<Dom
                        ": the picture's scale, the reading or the meter's direction is wrong");
   }
   DomeScale scale;
+  const Shares shares(clipped, reading.normal);
   for (DomeLight* light : clipped) {
-    InferIlluminance(Lux(missing * light->solid_angle.value() / weight), *light);
+    InferIlluminance(shares.Of(*light, missing), *light);
     ++scale.inferred;
   }
   scale.inferred_sd_relative = reading.sigma_relative * reading.illuminance.value() / missing;
@@ -175,6 +242,14 @@ bool LightsMeter(const DomeLight& light, const Vec3& normal) {
 bool TookLight(const DomeReading& reading) {
   const double ratio = reading.illuminance.value() / reading.shaded->value();
   return std::log(ratio) > ReadingsDifferBy(reading);
+}
+
+double MostOfCutOff(std::span<const DomeLight* const> lights, const Vec3& normal, double rest_lx) {
+  double shown = 0.0;
+  for (const DomeLight* light : lights) shown += ByLight(*light, normal);
+  const double most = std::max(kMostOverRest * rest_lx, 2.0 * shown);
+  const double sun = MostOfSun(lights, normal);
+  return sun > shown ? std::min(most, sun) : most;
 }
 
 ShadingBy ShadingOf(const DomeReading& reading, double all_lux, const DomeLight& light) {
@@ -205,6 +280,10 @@ Result<DomeScale> ScaleDome(const DomeReading& reading, bool absolute,
         "({MergeBracket} writes one)");
   }
   if (!(all > 0.0)) return NoLight();
+  const bool may_lack = std::ranges::any_of(lights, [&](const DomeLight& light) {
+    return light.maybe_clipped && ByLight(light, reading.normal) > 0.0;
+  });
+  if (may_lack && !absolute) return ByRange(reading, all, dome, lights);
   const DomeScale scale =
       Agreed(reading.illuminance.value() / all, reading.sigma_relative, stated_sd);
   Multiply(scale.factor, dome, lights);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "lightcal/core/result.h"
@@ -26,12 +27,20 @@ struct DomeScale {
   double read_factor = 1.0;  // what the reading alone asked for
   double read_weight = 1.0;  // of the reading in the factor, beside the picture's own scale
   double sd_relative = 0.0;  // of the samples' scale; 0 where no reading gave it
+  double range_ln = 0.0;     // half of what light that the picture may lack leaves open, in ln
   // Lights whose illuminance is the reading minus the rest; their relative sd.
   int inferred = 0;
   double inferred_sd_relative = 0.0;
   // Where a card took away less than the light's pixels give: what of it. Else 1.
   double shading_of_pixels = 1.0;
 };
+
+// What lights that may be clipped give a plane at most, whose rest gives it `rest_lx` [lx]:
+// nineteen times that, which more than the sun under a clear sky hardly does, and twice what they
+// show; one that may be the sun, above the horizon and small, no more than the sun outside the
+// atmosphere: 138 klx at perihelion (133.3 at mean distance: Darula, Kittler, Gueymard 2005).
+[[nodiscard]] double MostOfCutOff(std::span<const DomeLight* const> lights, const Vec3& normal,
+                                  double rest_lx);
 
 // Whether a meter that faces so sees a light well enough to measure it.
 [[nodiscard]] bool LightsMeter(const DomeLight& light, const Vec3& normal);
@@ -52,6 +61,11 @@ enum class ShadingBy : std::uint8_t { kNotSeen, kLess, kAsPixelsSay, kMore };
 //                                      (E_lux - E_shaded) / (n . d) at normal incidence: the
 //                                      clipped one, else that whose pixels are best what the card
 //                                      took away, else the brightest
+//   lights that may be clipped lit the meter, none shaded, the unit unknown
+//                                      factor = the geometric mean of E_lux / E(n), the picture as
+//                                      it is, and of the least: (E_lux - the most that these lights
+//                                      give) / R; range_ln reaches from one to the other; these
+//                                      lights share what is left: E_lux = factor R + theirs
 //   lights clipped, the scale absolute   factor = 1; the clipped light gives (E_lux - R) / (n . d);
 //                                      several share one luminance
 // The samples of dome and lights are multiplied. A picture that states how sure its scale is

@@ -115,7 +115,8 @@ Result<void> SetScale(const std::optional<DomeReading>& reading, MeasuredDome& m
   if (scaled) {
     measured.unit_known = true;
     if (scale->read_weight >= 0.5) measured.scale_source = reading->shaded ? "lux_shaded" : "lux";
-    measured.scale_u95_relative = kZ95 * std::hypot(scale->sd_relative, measured.missing_sd);
+    measured.scale_u95_relative =
+        scale->range_ln + kZ95 * std::hypot(scale->sd_relative, measured.missing_sd);
     std::erase_if(input.warnings, [](const Warning& w) { return w.code == "relative_scale"; });
   }
   const double off = std::abs(std::log(scale->read_factor));
@@ -160,6 +161,26 @@ void WarnOfClippedLights(MeasuredDome& measured) {
                                "a light is clipped: its lux are a lower bound; read it with a lux "
                                "meter ({dome.illuminance}, and "
                                "{dome.shaded} where the picture is not in cd/m2)"});
+}
+
+// What lights that are clipped, or may be, and that no reading gave, are at most.
+void BoundLights(const std::optional<DomeReading>& reading, MeasuredDome& measured) {
+  if (!measured.unit_known) return;
+  const Dome& dome = measured.input.dome;
+  for (DomeLight& light : measured.lights) {
+    if (light.inferred || !(light.maybe_clipped || light.body.clipped)) continue;
+    const double shown = light.illuminance.value();
+    const double rest =
+        IlluminanceOn(dome.luminance(), dome.grid(), light.direction).value() - shown;
+    const DomeLight* const one = &light;
+    light.at_most = Lux(MostOfCutOff({&one, 1}, light.direction, std::max(0.0, rest)));
+    // A reading in the picture's own unit holds it, as well as both are known.
+    if (!reading || reading->shaded || !LightsMeter(light, reading->normal)) continue;
+    const double seen = IlluminanceOn(dome.luminance(), dome.grid(), reading->normal).value();
+    const double open = 2.0 * measured.scale_u95_relative.value_or(0.0) * seen;
+    const double most = shown + open / Dot(light.direction, reading->normal);
+    light.at_most = Lux(std::min(light.at_most->value(), most));
+  }
 }
 
 // Outside the atmosphere the sun gives 133 klx at its mean distance, 138 at perihelion (Darula,
@@ -211,10 +232,23 @@ void OrderLights(MeasuredDome& measured) {
 }  // namespace
 
 Uncertain LuxOfDome(const MeasuredDome& measured, double value_lx, double sd_relative) {
-  if (measured.unit_known || !(value_lx > 0.0)) {
+  const bool in_ln = measured.scale.range_ln > 0.0 || kZ95 * sd_relative >= 1.0;
+  if (!(value_lx > 0.0) || (measured.unit_known && !in_ln)) {
     return UncertainFromNormal(value_lx, sd_relative * value_lx);
   }
+  if (measured.unit_known) return UncertainFromLog(std::log(value_lx), sd_relative);
   return UncertainFromLog(std::log(value_lx), std::hypot(kUnstatedUnitSdLn, sd_relative));
+}
+
+Uncertain LuxOfLight(const MeasuredDome& measured, std::size_t index) {
+  const DomeLight& light = measured.lights[index];
+  const double value = light.illuminance.value();
+  Uncertain lux = LuxOfDome(measured, value, measured.sd_relative[index]);
+  if (!light.at_most) return lux;
+  lux.low = light.at_least ? light.at_least->value() : LowEnd(lux);
+  lux.high = std::max(HighEnd(lux), light.at_most->value());
+  lux.u95 = 0.5 * (*lux.high - *lux.low);
+  return lux;
 }
 
 Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request) {
@@ -234,6 +268,7 @@ Result<MeasuredDome> MeasureDome(DomeInput input, const DomeRequest& request) {
   measured.lights = FindLights(measured.input, !measured.input.clipped.empty());
   if (auto ok = JudgePlateaus(request, reading, measured); !ok) return Propagate(std::move(ok));
   if (auto ok = SetScale(reading, measured); !ok) return Propagate(std::move(ok));
+  BoundLights(reading, measured);
   OrderLights(measured);
   WarnOfClippedLights(measured);
   WarnOfImpossibleSuns(measured);

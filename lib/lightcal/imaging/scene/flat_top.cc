@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "lightcal/photometry/half_range.h"
 
@@ -45,6 +46,63 @@ std::vector<std::uint8_t> PixelsFrom(View2d<const float> samples, double level) 
     }
   }
   return from;
+}
+
+namespace {
+
+// Whether the one pixel that is brightest ends where a format does, or is as bright as any in two
+// channels alike, which no light is by chance in a picture with colour.
+bool IsCutOffPixel(std::span<const float> samples, int channels, std::size_t at, float nits) {
+  if (IsFormatsEnd(nits)) return true;
+  if (channels != 3) return false;
+  std::array<float, 3> most{};
+  bool colour = false;
+  for (std::size_t i = 0; i + 2 < samples.size(); i += 3) {
+    for (std::size_t c = 0; c < 3; ++c) most[c] = std::max(most[c], samples[i + c]);
+    colour = colour || samples[i] != samples[i + 1];
+  }
+  int alike = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t next = (c + 1) % 3;
+    if (samples[3 * at + c] == most[c] && most[c] == most[next]) ++alike;
+  }
+  return colour && alike > 0;
+}
+
+// A channel's largest value, where it is cut off there: what is smooth, noisy or of eight bits of
+// mantissa has neighbours within 2 %.
+std::optional<float> ChannelEnd(std::span<const float> samples, std::size_t channel) {
+  constexpr int kLeast = 4, kMoreThanNear = 4;
+  constexpr float kNear = 0.98F;
+  float most = 0.0F;
+  for (std::size_t i = channel; i < samples.size(); i += 3) most = std::max(most, samples[i]);
+  int at = 0, near = 0;
+  for (std::size_t i = channel; i < samples.size(); i += 3) {
+    if (samples[i] > kNear * most) ++(samples[i] == most ? at : near);
+  }
+  return at >= kLeast && at > kMoreThanNear * near ? std::optional(most) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> CutOffPixels(std::span<const float> samples, int channels,
+                                       std::span<const float> nits) {
+  constexpr int kPlateau = 2;  // so many pixels that share the picture's largest value
+  const FlatTop top = TopOf(nits);
+  const auto at = static_cast<std::size_t>(std::ranges::find(nits, top.value) - nits.begin());
+  const bool cut_off =
+      top.at == 1 ? IsCutOffPixel(samples, channels, at, top.value) : IsCutOff(top, kPlateau);
+  std::vector<std::uint8_t> pixels;
+  const auto mark = [&](std::size_t i, bool ends) {
+    pixels.resize(nits.size(), 0);
+    if (ends) pixels[i] = 1;
+  };
+  for (std::size_t i = 0; cut_off && i < nits.size(); ++i) mark(i, nits[i] >= top.value);
+  for (std::size_t c = 0; c < 3 && channels == 3; ++c) {
+    const std::optional<float> end = ChannelEnd(samples, c);
+    for (std::size_t i = 0; end && i < nits.size(); ++i) mark(i, samples[3 * i + c] >= *end);
+  }
+  return pixels;
 }
 
 }  // namespace lightcal

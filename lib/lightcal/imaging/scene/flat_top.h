@@ -21,6 +21,11 @@ struct FlatTop {
 // too: where hardly any do, the picture was cut off there, or drawn. `least`: so many share it.
 [[nodiscard]] bool IsCutOff(const FlatTop& top, int least);
 
+// Pixels at the picture's largest luminance, and at a channel's largest value, where they are cut
+// off there, or drawn flat: 1. Empty: none is. `samples` interleaved; a luminance a pixel.
+[[nodiscard]] std::vector<std::uint8_t> CutOffPixels(std::span<const float> samples, int channels,
+                                                     std::span<const float> nits);
+
 // Whether formats end here: full scale of integers and of what is scaled to 1, 16 bit floats.
 [[nodiscard]] bool IsFormatsEnd(float sample);
 
