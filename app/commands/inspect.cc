@@ -98,17 +98,38 @@ Result<Region> RegionOf(const InspectOptions& options, const PictureLuminance& p
   return region;
 }
 
+bool IsInside(const Region& region, std::size_t pixel, int width) {
+  const int x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width;
+  return x >= region.x && x < region.x + region.width && y >= region.y &&
+         y < region.y + region.height;
+}
+
+// A sun that is cut off lights nothing.
+void WarnOfCutOff(const InspectedPicture& inspected, const Region& region, Console& console) {
+  const int width = inspected.luminance.width;
+  std::vector<std::size_t> inside = inspected.cut_off;
+  std::erase_if(inside, [&](std::size_t pixel) { return !IsInside(region, pixel, width); });
+  if (inside.empty()) return;
+  const int first = static_cast<int>(inside.front());
+  console.Warn({"maybe_clipped", inspected.info.file,
+                std::to_string(inside.size()) +
+                    (inside.size() == 1 ? " pixel ends" : " pixels end") +
+                    " at the picture's largest value, far above the rest, the first at " +
+                    std::to_string(first % width) + "," + std::to_string(first / width) +
+                    "; if they are clipped, the illuminance is a lower bound: merge a bracket "
+                    "with a darker frame, or read it with a lux meter"});
+}
+
 // Those of the region that hold no number, counted and named.
 std::size_t WarnOfMasked(const InspectedPicture& inspected, const Region& region,
                          Console& console) {
   std::size_t count = 0;
   std::string first;
   for (const std::size_t pixel : inspected.masked) {
-    const int x = static_cast<int>(pixel) % inspected.luminance.width;
-    const int y = static_cast<int>(pixel) / inspected.luminance.width;
-    const bool inside = x >= region.x && x < region.x + region.width && y >= region.y &&
-                        y < region.y + region.height;
-    if (inside && count++ == 0) first = std::to_string(x) + "," + std::to_string(y);
+    const int width = inspected.luminance.width;
+    if (!IsInside(region, pixel, width) || count++ > 0) continue;
+    const int at = static_cast<int>(pixel);
+    first = std::to_string(at % width) + "," + std::to_string(at / width);
   }
   if (count > 0) {
     console.Warn(
@@ -267,6 +288,7 @@ Result<void> RunInspect(const InspectOptions& options, Console& console) {
     answer->glare = std::move(*glare);
   }
   const std::size_t masked = WarnOfMasked(*inspected, *region, console);
+  if (answer->illuminance) WarnOfCutOff(*inspected, *region, console);
   if (auto ok = console.RefuseIfStrict(); !ok) return ok;
   const bool is_latlong =
       angles->has_value() && (*angles)->view().projection == Projection::kLatLong;

@@ -94,6 +94,8 @@ for _ in range(WORLDS):
     counts["lower_sun"] += bool({"maybe_clipped", "clipped"} & set(warned)) and bool(said["lights"]) and holds(said["lights"][0]["illuminance_lx"], lux)
     said, warned = dome()
     counts["lower"] += bool({"maybe_clipped", "clipped"} & set(warned)) and holds(environment(), world.lux(UP))
+    inspected = answer("inspect", HOME / "p.exr", "--projection", "latlong")
+    assert "maybe_clipped" in [w["code"] for w in inspected["warnings"]], inspected
     # Whole.
     write_exr(HOME / "p.exr", world.rgb / unit)
     said, warned = dome("--lux", f"{world.lux(UP):.6g}")

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/calibrate/inspect_picture.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "lightcal/calibrate/merge_bracket.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/imaging/scene/flat_top.h"
 
 namespace lightcal {
 namespace {
@@ -44,6 +49,28 @@ void TakeOwnScale(InspectedPicture& inspected) {
   }
 }
 
+// Where the brightest that a picture holds is cut off, or drawn flat, it is three times as bright
+// as the mean or more; a grey card that fills the frame is not meant.
+std::vector<std::size_t> BrightEndsOf(const Frame& frame, const std::vector<float>& nits) {
+  constexpr double kFarAbove = 3.0;
+  const auto& samples = std::get<View2d<const float>>(frame.samples);
+  const auto count = static_cast<std::size_t>(samples.width()) * samples.height();
+  const auto channels = static_cast<std::size_t>(samples.channels());
+  const std::vector<std::uint8_t> ends =
+      CutOffPixels({samples.data(), count * channels}, samples.channels(), nits);
+  std::vector<std::size_t> pixels;
+  double sum = 0.0, at_end = 0.0;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    sum += double{nits[i]};
+    if (ends[i] == 0) continue;
+    at_end += double{nits[i]};
+    pixels.push_back(i);
+  }
+  const double mean_share = static_cast<double>(pixels.size()) / static_cast<double>(nits.size());
+  if (!(at_end > kFarAbove * mean_share * sum)) pixels.clear();
+  return pixels;
+}
+
 }  // namespace
 
 Result<InspectedPicture> InspectPicture(const std::string& path, const Sources& sources,
@@ -63,13 +90,15 @@ Result<InspectedPicture> InspectPicture(const std::string& path, const Sources& 
   if (!picture) return Propagate(std::move(picture));
   auto luminance = LuminanceOfPicture(picture->frame, convention);
   if (!luminance) return Propagate(std::move(luminance));
+  std::vector<std::size_t> cut_off = BrightEndsOf(picture->frame, luminance->nits);
   for (const std::size_t pixel : picture->masked) {
     luminance->nits[pixel] = std::numeric_limits<float>::quiet_NaN();
   }
   Warnings warnings = picture->frame.info.warnings;
   warnings.insert(warnings.end(), luminance->warnings.begin(), luminance->warnings.end());
-  InspectedPicture inspected{std::move(picture->frame.info), *std::move(luminance), std::nullopt,
-                             std::move(picture->masked), std::move(warnings)};
+  InspectedPicture inspected{
+      std::move(picture->frame.info), *std::move(luminance), std::nullopt,
+      std::move(picture->masked),     std::move(warnings),   std::move(cut_off)};
   if (convention == LuminanceConvention::kPhotometric) TakeOwnScale(inspected);
   return inspected;
 }

@@ -21,6 +21,8 @@ struct InspectedPicture {
   std::optional<double> scale_u95_relative;
   std::vector<std::size_t> masked{};  // pixels, y * width + x
   Warnings warnings{};
+  // Pixels that end where the picture does, far above the rest: row * width + column.
+  std::vector<std::size_t> cut_off{};
 };
 
 // A RAW is a bracket of one frame, whose exposure `overrides` may give: its luminance is by the ISO
