@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lightcal/colorimetry/cct.h"
+#include "lightcal/colorimetry/rgb_spaces.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/presets/light_color.h"
 
@@ -15,31 +16,16 @@ namespace {
 // body by less.
 constexpr double kRounding_uv = 0.002;
 
-struct Place {
-  double u = 0.0, v = 0.0;
-};
+double Apart(const Uv1976& a, const Uv1976& b) { return std::hypot(a.u - b.u, a.v - b.v); }
 
-double Apart(const Place& a, const Place& b) { return std::hypot(a.u - b.u, a.v - b.v); }
-
-Place PlaceOfXy(const Xy& xy) {
-  const double sum = -2.0 * xy.x + 12.0 * xy.y + 3.0;
-  return {4.0 * xy.x / sum, 9.0 * xy.y / sum};
+// Absent of black.
+std::optional<Uv1976> UvOfRgb(const Rgb& linear) {
+  const Xyz xyz = XyzFromLinearRgb(linear, RgbSpace::kSrgb);
+  return xyz.Y > 0.0 ? std::optional(Uv1976FromXy(XyFromXyz(xyz))) : std::nullopt;
 }
-
-// Of linear Rec. 709, by the primaries' own matrix (IEC 61966-2-1); absent of black.
-std::optional<Place> PlaceOfRgb(const Vec3& rgb) {
-  const double x = 0.4123908 * rgb[0] + 0.3575843 * rgb[1] + 0.1804808 * rgb[2];
-  const double y = 0.2126390 * rgb[0] + 0.7151687 * rgb[1] + 0.0721923 * rgb[2];
-  const double z = 0.0193308 * rgb[0] + 0.1191948 * rgb[1] + 0.9505322 * rgb[2];
-  const double sum = x + 15.0 * y + 3.0 * z;
-  if (!(sum > 0.0)) return std::nullopt;
-  return Place{4.0 * x / sum, 9.0 * y / sum};
-}
-
-Vec3 VecOf(const Rgb& rgb) { return {rgb.r, rgb.g, rgb.b}; }
 
 // From a point to the nearest of a straight way.
-double ApartFromWay(const Place& at, const Place& from, const Place& to) {
+double ApartFromWay(const Uv1976& at, const Uv1976& from, const Uv1976& to) {
   const double du = to.u - from.u, dv = to.v - from.v;
   const double length2 = du * du + dv * dv;
   const double along =
@@ -53,8 +39,8 @@ double U95Of(const FittedColor& color) {
   double u95 = 0.0;
   const double duv = color.duv ? color.duv->value : 0.0;
   if (color.cct_K && LowEnd(*color.cct_K) > 0.0) {
-    const auto at = [&](double kelvin) { return PlaceOfXy(XyFromCct(Kelvin(kelvin), duv)); };
-    const Place middle = at(color.cct_K->value);
+    const auto at = [&](double kelvin) { return Uv1976FromXy(XyFromCct(Kelvin(kelvin), duv)); };
+    const Uv1976 middle = at(color.cct_K->value);
     u95 =
         std::max(Apart(at(LowEnd(*color.cct_K)), middle), Apart(at(HighEnd(*color.cct_K)), middle));
   }
@@ -71,14 +57,15 @@ std::vector<ComparedColor> CompareColors(const LightFile& lamps,
   for (const FittedLight& lamp : lamps.lights) {
     Warnings said_by_export;
     const EmittedColor color = ColorOfLight(lamp, {RgbSpace::kSrgb, white}, said_by_export);
-    const auto own = PlaceOfRgb(VecOf(color.unit_luminance));
-    const auto clipped = PlaceOfRgb(VecOf(color.max_normalised));
+    const auto own = UvOfRgb(color.unit_luminance);
+    const auto clipped = UvOfRgb(color.max_normalised);
     if (!color.xy || !own || !clipped) continue;
     for (const EngineLight& light : lights) {
       const bool stands_for =
           light.name.empty() ? light.kind == EngineLightKind::kDome && lamp.kind == LightKind::kDome
                              : light.name == lamp.name;
-      const auto at = light.rgb ? PlaceOfRgb(*light.rgb) : std::nullopt;
+      const auto at =
+          light.rgb ? UvOfRgb({(*light.rgb)[0], (*light.rgb)[1], (*light.rgb)[2]}) : std::nullopt;
       if (!stands_for || !at) continue;
       rows.push_back({lamp.name, *color.xy, ApartFromWay(*at, *own, *clipped),
                       U95Of(lamp.color) + kRounding_uv});

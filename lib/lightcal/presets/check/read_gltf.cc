@@ -72,7 +72,8 @@ class SceneWalk {
         seen_(nodes_.size()),
         lights_(lights) {}
 
-  void Visit(std::size_t index, const SceneFrame& parent) {
+  void Visit(std::size_t index, const SceneFrame& parent, std::size_t depth = 0) {
+    if (depth > kDeepestNode) throw std::runtime_error("its nodes hang too deep");
     const Json& node = nodes_.at(index);
     if (seen_.at(index)) throw std::runtime_error("a node of it hangs at two places");
     seen_[index] = true;
@@ -84,7 +85,7 @@ class SceneWalk {
       lights_.push_back(FromGltf(node, frame, definitions_.at(light)));
     }
     for (const Json& child : node.value("children", Json::array())) {
-      Visit(child.get<std::size_t>(), frame);
+      Visit(child.get<std::size_t>(), frame, depth + 1);
     }
   }
 

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
 #include "lightcal/core/vec3.h"
 
 namespace lightcal {
+
+inline constexpr std::size_t kDeepestNode = 1000;
 
 // An affine transform by its columns: p -> x p0 + y p1 + z p2 + origin.
 struct SceneFrame {

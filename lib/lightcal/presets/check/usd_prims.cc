@@ -62,6 +62,7 @@ class OpenPrims {
   }
   void Open(std::size_t prim) {
     while (!open_.empty() && open_.back().depth >= before_) open_.pop_back();
+    if (open_.size() > kDeepestNode) throw std::runtime_error("its prims hang too deep");
     open_.push_back({prim, before_});
   }
   [[nodiscard]] std::size_t Current() const { return open_.empty() ? 0 : open_.back().prim; }
