@@ -32,6 +32,7 @@ LUMINANCE = (0.212639, 0.715169, 0.072192)
 BARS = {'blender': .003, 'three': .02, 'babylon_gltf': .02, 'filament': .02}
 CHROMA, SUN_DEGREES = .01, .3
 WIDTH = 512
+DRAWN = '1e9'  # from where samples would be clipped: the flat sun was drawn, not cut off
 
 
 def sun_direction():
@@ -126,8 +127,8 @@ def export(lightcal, work, truth):
     write_panorama(f'{work}/place.hdr')
     up = luminance([a + b for a, b in zip(*truth['up'])])
     for case, taken in (('beside', '1'), ('inside', '0')):
-        run(lightcal, 'dome', f'{work}/place.hdr', '--lux', repr(up), '--extract', taken, '-o', f'{work}/{case}',
-            '--force', '--quiet')
+        run(lightcal, 'dome', f'{work}/place.hdr', '--lux', repr(up), '--clip', DRAWN, '--extract', taken, '-o',
+            f'{work}/{case}', '--force', '--quiet')
         run(lightcal, 'export', f'{work}/{case}/light.json', '--to',
             'json,gltf,blender,three,filament,mitsuba,pbrt,usd,godot', '--rig', '-o', f'{work}/{case}/out', '--force', '--quiet')
 

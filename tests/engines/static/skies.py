@@ -182,7 +182,8 @@ def through_report(work, truth):
     """The report of the place with its sun left inside: six ways by each engine's law, the picture's own integral or
     nine harmonics of it (Ramamoorthi and Hanrahan 2001), which are worked out here."""
     up = panorama.luminance([a + b for a, b in zip(*truth['up'])])
-    panorama.run(LIGHTCAL, 'dome', f'{work}/place.hdr', '--lux', repr(up), '--extract', '0', '-o', f'{work}/inside', '--quiet')
+    panorama.run(LIGHTCAL, 'dome', f'{work}/place.hdr', '--lux', repr(up), '--clip', panorama.DRAWN,
+                 '--extract', '0', '-o', f'{work}/inside', '--quiet')
     panorama.run(LIGHTCAL, 'report', f'{work}/inside/light.json', '-o', f'{work}/report.html', '--quiet')
     text = open(f'{work}/report.html', encoding='utf-8').read()
     table = text[text.index('six ways</h3>'):]
@@ -224,8 +225,8 @@ def main():
     with tempfile.TemporaryDirectory() as work:
         panorama.write_panorama(f'{work}/place.hdr')
         up = panorama.luminance([a + b for a, b in zip(*truth['up'])])
-        panorama.run(LIGHTCAL, 'dome', f'{work}/place.hdr', '--lux', repr(up), '--extract', '1', '-o',
-                     f'{work}/dome', '--quiet')
+        panorama.run(LIGHTCAL, 'dome', f'{work}/place.hdr', '--lux', repr(up), '--clip', panorama.DRAWN,
+                     '--extract', '1', '-o', f'{work}/dome', '--quiet')
         out = f'{work}/dome/out'
         panorama.run(LIGHTCAL, 'export', f'{work}/dome/light.json', '--to', 'unreal,unity,gltf', '-o', out, '--quiet')
         if image_based_schema.check(json.load(open(f'{out}/light.gltf'))) != 1:
