@@ -167,8 +167,8 @@ class Renderers(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             panorama.write_panorama(os.path.join(folder, "place.hdr"))
             up = panorama.luminance([a + b for a, b in zip(*truth["up"])])
-            for words in (["dome", os.path.join(folder, "place.hdr"), "--lux", repr(up), "--extract", "1", "-o",
-                           folder], ["export", os.path.join(folder, "light.json"), "--to", "usd", "-o", folder]):
+            for words in (["dome", os.path.join(folder, "place.hdr"), "--lux", repr(up), "--clip", panorama.DRAWN,
+                           "--extract", "1", "-o", folder], ["export", os.path.join(folder, "light.json"), "--to", "usd", "-o", folder]):
                 subprocess.run([LIGHTCAL, *words], check=True, capture_output=True)
             path = os.path.join(folder, "light.usda")
 
