@@ -98,17 +98,16 @@ Result<Region> RegionOf(const InspectOptions& options, const PictureLuminance& p
   return region;
 }
 
-bool IsInside(const Region& region, std::size_t pixel, int width) {
-  const int x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width;
-  return x >= region.x && x < region.x + region.width && y >= region.y &&
-         y < region.y + region.height;
+bool Holds(const Region& region, std::size_t pixel, int width) {
+  const int at = static_cast<int>(pixel);
+  return region.Holds(at % width, at / width);
 }
 
 // A sun that is cut off lights nothing.
 void WarnOfCutOff(const InspectedPicture& inspected, const Region& region, Console& console) {
   const int width = inspected.luminance.width;
   std::vector<std::size_t> inside = inspected.cut_off;
-  std::erase_if(inside, [&](std::size_t pixel) { return !IsInside(region, pixel, width); });
+  std::erase_if(inside, [&](std::size_t pixel) { return !Holds(region, pixel, width); });
   if (inside.empty()) return;
   const int first = static_cast<int>(inside.front());
   console.Warn({"maybe_clipped", inspected.info.file,
@@ -127,7 +126,7 @@ std::size_t WarnOfMasked(const InspectedPicture& inspected, const Region& region
   std::string first;
   for (const std::size_t pixel : inspected.masked) {
     const int width = inspected.luminance.width;
-    if (!IsInside(region, pixel, width) || count++ > 0) continue;
+    if (!Holds(region, pixel, width) || count++ > 0) continue;
     const int at = static_cast<int>(pixel);
     first = std::to_string(at % width) + "," + std::to_string(at / width);
   }

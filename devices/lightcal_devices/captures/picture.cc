@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "lightcal/records/fill_masked.h"
+#include "lightcal/records/stored_pixels.h"
 #include "lightcal_devices/captures/exposure_tags.h"
 #include "lightcal_devices/captures/frame_files_module.h"
 #include "lightcal_devices/captures/mapped_file.h"
@@ -103,17 +104,14 @@ Result<void> TakeRadianceHeader(std::string_view bytes, FrameInfo& info) {
   return {};
 }
 
-// Finished pictures stand as their Orientation says they are shown (TIFF 6.0: 1 the first row
-// above, 2 to 4 mirrored and turned in place, 5 to 8 with rows for columns). Codes stay where the
-// sensor has them, as its flat fields and masks do.
+// Finished pictures stand as their Orientation says they are shown. Codes stay where the sensor has
+// them, as its flat fields and masks do.
 void TurnAsShown(OiioPicture& picture) {
   const int tag = picture.orientation;
   if (!picture.is_float || tag < 2 || tag > 8) return;
   picture.orientation = 1;
   const int stored_width = picture.width, stored_height = picture.height;
-  const bool rows_for_columns = tag >= 5;
-  const bool from_right = tag == 2 || tag == 3 || tag == 7 || tag == 8;
-  const bool from_below = tag == 3 || tag == 4 || tag == 6 || tag == 7;
+  const auto [rows_for_columns, from_right, from_below] = ShownTurnOf(tag);
   if (rows_for_columns) std::swap(picture.width, picture.height);
   if (picture.floats.empty()) return;
   std::vector<float> shown;

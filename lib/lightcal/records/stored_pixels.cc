@@ -6,13 +6,6 @@
 namespace lightcal {
 namespace {
 
-bool HasRowsForColumns(int orientation) { return orientation >= 5; }
-
-bool IsInside(const PixelBox& box, int width, int height) {
-  return box[0] >= 0 && box[1] >= 0 && box[2] > 0 && box[3] > 0 && box[0] <= width - box[2] &&
-         box[1] <= height - box[3];
-}
-
 std::string BoxText(const PixelBox& box) {
   std::string text;
   for (const int number : box) text += (text.empty() ? "" : ", ") + std::to_string(number);
@@ -34,15 +27,26 @@ std::string HowShown(int orientation) {
 
 }  // namespace
 
+bool IsInside(const PixelBox& box, int width, int height) {
+  return box[0] >= 0 && box[1] >= 0 && box[2] > 0 && box[3] > 0 && box[0] <= width - box[2] &&
+         box[1] <= height - box[3];
+}
+
+ShownTurn ShownTurnOf(int orientation) {
+  const int tag = orientation >= 1 && orientation <= 8 ? orientation : 1;
+  return {tag >= 5, tag == 2 || tag == 3 || tag == 7 || tag == 8,
+          tag == 3 || tag == 4 || tag == 6 || tag == 7};
+}
+
 std::optional<PixelBox> StoredFromShown(const PixelBox& shown, const FrameInfo& info) {
-  const int tag = info.orientation;
+  const ShownTurn turn = ShownTurnOf(info.orientation);
   auto [column, row, width, height] = shown;
-  if (HasRowsForColumns(tag)) {
+  if (turn.rows_for_columns) {
     std::swap(column, row);
     std::swap(width, height);
   }
-  if (tag == 2 || tag == 3 || tag == 7 || tag == 8) column = info.width - column - width;
-  if (tag == 3 || tag == 4 || tag == 6 || tag == 7) row = info.height - row - height;
+  if (turn.from_right) column = info.width - column - width;
+  if (turn.from_below) row = info.height - row - height;
   const PixelBox stored{column, row, width, height};
   return IsInside(stored, info.width, info.height) ? std::optional(stored) : std::nullopt;
 }
@@ -55,8 +59,9 @@ Result<void> CheckTurned(const std::string& subject, const FrameInfo& info, cons
   const auto size = [](int width, int height) {
     return std::to_string(width) + " x " + std::to_string(height);
   };
-  const std::string shown = HasRowsForColumns(info.orientation) ? size(info.height, info.width)
-                                                                : size(info.width, info.height);
+  const std::string shown = ShownTurnOf(info.orientation).rows_for_columns
+                                ? size(info.height, info.width)
+                                : size(info.width, info.height);
   std::string message = "viewers show these frames " + HowShown(info.orientation) +
                         " (their Orientation tag), as " + shown +
                         "; places in pixels are taken as stored, " + size(info.width, info.height);

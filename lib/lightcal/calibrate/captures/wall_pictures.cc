@@ -93,14 +93,11 @@ WallSelection SelectionOf(const CaptureDescription& capture, const FrameInfo& in
 // Calls `visit` with every pixel that shows the wall, the board included.
 template <class Visit>
 void ForWall(View2d<const float> picture, const WallSelection& selection, const Visit& visit) {
-  const auto holds = [](const Region& r, int x, int y) {
-    return x >= r.x && x < r.x + r.width && y >= r.y && y < r.y + r.height;
-  };
   const Region all = selection.wall.value_or(Region{0, 0, picture.width(), picture.height()});
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
-      const auto masked = [&](const Region& mask) { return holds(mask, x, y); };
-      if (holds(all, x, y) && !std::ranges::any_of(selection.masks, masked)) visit(x, y);
+      const auto masked = [&](const Region& mask) { return mask.Holds(x, y); };
+      if (all.Holds(x, y) && !std::ranges::any_of(selection.masks, masked)) visit(x, y);
     }
   }
 }

@@ -9,13 +9,12 @@
 #include <vector>
 
 #include "lightcal/core/statistics.h"
+#include "lightcal/records/stored_pixels.h"
 
 namespace lightcal {
 
 Result<void> CheckRegion(const Region& region, int width, int height) {
-  const bool inside = region.width > 0 && region.height > 0 && region.x >= 0 && region.y >= 0 &&
-                      region.x <= width - region.width && region.y <= height - region.height;
-  if (inside) return {};
+  if (IsInside({region.x, region.y, region.width, region.height}, width, height)) return {};
   const auto text = [](int v) { return std::to_string(v); };
   return Refused(
       "bad_region",

@@ -12,6 +12,10 @@ namespace lightcal {
 // Pixels x to x + width - 1, y to y + height - 1; (0, 0) is the upper left one.
 struct Region {
   int x = 0, y = 0, width = 0, height = 0;
+
+  [[nodiscard]] bool Holds(int at_x, int at_y) const {
+    return at_x >= x && at_x < x + width && at_y >= y && at_y < y + height;
+  }
 };
 
 struct LuminanceStatistics {
