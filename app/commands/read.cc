@@ -12,6 +12,7 @@
 #include "input_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/printable.h"
+#include "lightcal/fit/model/observations.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal/records/session_reader.h"
@@ -88,9 +89,7 @@ class ReadRun {
     if (!light) return Propagate(std::move(light));
     frame.light = *std::move(light);
     if (auto named = CheckNames(*session_, frame.light, frame.meter); !named) return named;
-    const LightKind kind = FindLight(*session_, frame.light)->kind;
-    const bool everywhere = kind == LightKind::kDirectional || kind == LightKind::kDome;
-    if (!everywhere && !frame.distance) {
+    if (!frame.distance && fit::HasDistanceLaw(FindLight(*session_, frame.light)->kind)) {
       return WrongUsage("--distance",
                         "give the distance from the lamp, for example 0.5m; or --guided to be told "
                         "where to put the meter");
