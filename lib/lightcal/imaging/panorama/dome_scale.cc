@@ -24,6 +24,10 @@ double ByLight(const DomeLight& light, const Vec3& normal) {
   return std::max(0.0, Dot(light.flow, normal));
 }
 
+double MostByRest(double rest_lx, double shown_lx) {
+  return std::max(kMostOverRest * rest_lx, 2.0 * shown_lx);
+}
+
 // Infinite of what is no sun.
 double MostOfSun(std::span<const DomeLight* const> lights, const Vec3& normal) {
   if (lights.size() != 1 || !(lights.front()->direction[2] > 0.0) ||
@@ -183,7 +187,7 @@ Result<DomeScale> ByRange(const DomeReading& reading, double all, Dome& dome,
   const double high = lux / all;
   const std::vector<const DomeLight*> seen(ends.begin(), ends.end());
   // E = k (rest + most(rest)): once by what the rest allows, once by what a sun does.
-  const double by_rest = lux / (rest + std::max(kMostOverRest * rest, 2.0 * shown));
+  const double by_rest = lux / (rest + MostByRest(rest, shown));
   const double sun = MostOfSun(seen, reading.normal);
   const double by_sun = (lux - sun) / rest;
   const double low = by_sun < high ? std::max(by_rest, by_sun) : by_rest;
@@ -247,7 +251,7 @@ bool TookLight(const DomeReading& reading) {
 double MostOfCutOff(std::span<const DomeLight* const> lights, const Vec3& normal, double rest_lx) {
   double shown = 0.0;
   for (const DomeLight* light : lights) shown += ByLight(*light, normal);
-  const double most = std::max(kMostOverRest * rest_lx, 2.0 * shown);
+  const double most = MostByRest(rest_lx, shown);
   const double sun = MostOfSun(lights, normal);
   return sun > shown ? std::min(most, sun) : most;
 }
