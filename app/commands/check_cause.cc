@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -72,10 +73,10 @@ std::optional<AskedForm> FormOf(const std::vector<ComparedReading>& rows,
 
 // ---- mistakes by their number ----
 
-// Of what a lamp should give, at each of its readings alike; absent where it is not.
+// Of what a lamp should give, at each of its readings alike; 0 where it is not.
 struct LampFactor {
   std::string light;
-  double factor = 1.0;
+  double factor = 0.0;
 };
 
 // Of the lamps that stray.
@@ -83,21 +84,16 @@ std::vector<LampFactor> FactorsOf(const std::vector<ComparedReading>& rows, doub
   std::vector<LampFactor> factors;
   for (const LampRms& lamp : RmsByLamp(rows)) {
     if (lamp.rms <= max_error) continue;
-    double given = 0.0, squares = 0.0;
-    const auto each = [&](const auto& visit) {
-      for (const ComparedReading& row : rows) {
-        if (row.used && row.light == lamp.light && row.measured_lx > row.unsure_lx) visit(row);
-      }
-    };
-    each([&](const ComparedReading& row) {
-      given += row.predicted_lx / row.measured_lx;
-      squares += 1.0;
-    });
-    const double factor = squares > 0.0 ? given / squares : 0.0;
-    bool alike = factor > 0.0;
-    each([&](const ComparedReading& row) {
-      alike = alike && std::abs(row.predicted_lx / row.measured_lx / factor - 1.0) <= max_error;
-    });
+    std::vector<double> given;
+    for (const ComparedReading& row : rows) {
+      if (!row.used || row.light != lamp.light || !(row.measured_lx > row.unsure_lx)) continue;
+      given.push_back(row.predicted_lx / row.measured_lx);
+    }
+    const double sum = std::accumulate(given.begin(), given.end(), 0.0);
+    const double factor = given.empty() ? 0.0 : sum / static_cast<double>(given.size());
+    const bool alike = factor > 0.0 && std::ranges::all_of(given, [&](double one) {
+                         return std::abs(one / factor - 1.0) <= max_error;
+                       });
     factors.push_back({lamp.light, alike ? factor : 0.0});
   }
   return factors;

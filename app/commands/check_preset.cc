@@ -90,16 +90,14 @@ std::vector<LampRms> LampsOff(std::vector<LampRms> lamps, double max_error) {
   return lamps;
 }
 
-// "4.6 % (rms) off what the meter showed, of 30 lamps l07 25 %"
-std::string OffText(const std::vector<ComparedReading>& rows, const std::vector<LampRms>& lamps,
-                    double max_error) {
+// "4.6 % (rms) off what the meter showed, of 30 lamps l07 25 %"; `off`: those lamps.
+std::string OffText(double rms, std::size_t lamps, std::vector<LampRms> off) {
   constexpr std::size_t kNamed = 5;
-  std::string text = PercentText(RmsOf(rows).value_or(0.0)) + " (rms) off what the meter showed";
-  if (lamps.size() < 2) return text;
-  std::vector<LampRms> off = LampsOff(lamps, max_error);
+  std::string text = PercentText(rms) + " (rms) off what the meter showed";
+  if (lamps < 2) return text;
   const std::size_t more = off.size() - std::min(off.size(), kNamed);
   off.resize(off.size() - more);
-  text += ", of " + std::to_string(lamps.size()) + " lamps " +
+  text += ", of " + std::to_string(lamps) + " lamps " +
           Joined(off, ", ", [](const LampRms& l) { return l.light + " " + PercentText(l.rms); });
   return more == 0 ? text : text + " and " + std::to_string(more) + " more";
 }
@@ -163,17 +161,17 @@ std::optional<Error> OtherFault(const PresetCheck& options, const OtherFaults& f
 
 // What the preset lacks, where that is more than it may.
 std::optional<Error> Judged(const PresetCheck& options, const CalibratedSession& calibrated,
-                            const std::vector<ComparedReading>& rows, const OtherFaults& faults,
+                            const std::vector<ComparedReading>& rows, double rms,
+                            const std::vector<LampRms>& lamps, const OtherFaults& faults,
                             double max_error) {
-  if (!faults.missing.empty()) return OtherFault(options, faults);
-  const std::vector<LampRms> lamps = RmsByLamp(rows);
-  if (LampsOff(lamps, max_error).empty()) return OtherFault(options, faults);
+  std::vector<LampRms> off = LampsOff(lamps, max_error);
+  if (!faults.missing.empty() || off.empty()) return OtherFault(options, faults);
   const auto worst = std::ranges::max_element(rows, {}, [](const ComparedReading& row) {
     return row.used ? std::abs(row.Judged().value_or(0.0)) : 0.0;
   });
   return Error{ErrorKind::kFailed, "preset_off", options.file,
-               "is " + OffText(rows, lamps, max_error) + ", more than " + PercentText(max_error) +
-                   "; most at a reading of " + worst->light + ": " +
+               "is " + OffText(rms, lamps.size(), std::move(off)) + ", more than " +
+                   PercentText(max_error) + "; most at a reading of " + worst->light + ": " +
                    RoundedText(worst->predicted_lx, 4) + " lx instead of " +
                    RoundedText(worst->measured_lx, 4) + " lx. " +
                    PerhapsACone(options, rows, *worst, max_error) +
@@ -203,6 +201,7 @@ Result<void> CheckPreset(const PresetCheck& options, Console& console) {
                               target != nullptr && target->name == "json"
                                   ? CompareDerived(*text, calibrated->lights, *max_error)
                                   : std::vector<DerivedOff>{}};
+  const std::vector<LampRms> lamps = RmsByLamp(rows);
   const auto rms = RmsOf(rows);
   if (!rms) {
     return Refused("no_readings", options.session, "has no reading to check against");
@@ -247,7 +246,7 @@ Result<void> CheckPreset(const PresetCheck& options, Console& console) {
   Node document = {{"readings", readings},
                    {"rms_relative", *rms},
                    {"max_error", *max_error},
-                   {"lights", Node::List(RmsByLamp(rows),
+                   {"lights", Node::List(lamps,
                                          [&](const LampRms& lamp) {
                                            return Node{{"name", lamp.light},
                                                        {"rms_relative", lamp.rms},
@@ -257,7 +256,7 @@ Result<void> CheckPreset(const PresetCheck& options, Console& console) {
                    {"extra", Node::UnlessEmpty(Node(faults.extra))},
                    {"derived_off", Node::UnlessEmpty(Node::List(faults.derived, DerivedNode))},
                    {"colors", Node::UnlessEmpty(Node::List(faults.colors, ColorNode))}};
-  if (const auto fault = Judged(options, *calibrated, rows, faults, *max_error)) {
+  if (const auto fault = Judged(options, *calibrated, rows, *rms, lamps, faults, *max_error)) {
     return EndWithError(console, std::move(document), *fault);
   }
   console.PrintDocument(std::move(document));
