@@ -125,9 +125,12 @@ std::optional<Settings> Turned(const Lamps& lamps, Settings settings, const Dial
   return settings;
 }
 
-// Another dial turned until the colour is nearest to `wanted`, by its slope in u'v' there.
-std::optional<Settings> TurnedBack(const Lamps& lamps, const Settings& settings, const Dial& dial,
-                                   Xy wanted_xy) {
+// How a dial moves the colour in u'v' where it stands, a whole range of it.
+struct DialSlope {
+  Uv1976 from;
+  double u = 0.0, v = 0.0;
+};
+std::optional<DialSlope> SlopeOf(const Lamps& lamps, const Settings& settings, const Dial& dial) {
   constexpr double kPart = 0.005;
   const auto& axis = dial.axis;
   const double here = settings[dial.lamp].state[axis.control].number;
@@ -136,13 +139,18 @@ std::optional<Settings> TurnedBack(const Lamps& lamps, const Settings& settings,
   if (!beside) return std::nullopt;
   const Uv1976 from = Uv1976FromXy(SumOf(settings).xy);
   const Uv1976 to = Uv1976FromXy(SumOf(*beside).xy);
-  const Uv1976 wanted = Uv1976FromXy(wanted_xy);
-  const double u = (to.u - from.u) / part;
-  const double v = (to.v - from.v) / part;
-  const double square = u * u + v * v;
+  return DialSlope{from, (to.u - from.u) / part, (to.v - from.v) / part};
+}
+
+// That dial turned until the colour is nearest to `wanted_xy`.
+std::optional<Settings> TurnedBack(const Lamps& lamps, const Settings& settings, const Dial& dial,
+                                   const std::optional<DialSlope>& slope, Xy wanted_xy) {
+  const double square = slope ? slope->u * slope->u + slope->v * slope->v : 0.0;
   if (!(square > 1e-8)) return std::nullopt;
-  return Turned(lamps, settings, dial,
-                ((wanted.u - from.u) * u + (wanted.v - from.v) * v) / square);
+  const Uv1976 wanted = Uv1976FromXy(wanted_xy);
+  return Turned(
+      lamps, settings, dial,
+      ((wanted.u - slope->from.u) * slope->u + (wanted.v - slope->from.v) * slope->v) / square);
 }
 
 // A setting that costs less: one dial turned by `step` of its range, or where none alone helps,
@@ -167,11 +175,15 @@ std::optional<Found> Bettered(const Lamps& lamps, const Found& from, double step
       tried.emplace_back(i, *std::move(settings));
     }
   }
+  std::vector<std::optional<DialSlope>> slopes;  // found for the first colour
   for (const Xy wanted : {SumOf(from.settings).xy, cost.sought}) {
+    std::size_t at = 0;
     for (const auto& [turned, settings] : tried) {
       for (std::size_t i = 0; i < dials.size(); ++i) {
         if (i == turned) continue;
-        if (auto found = better(TurnedBack(lamps, settings, dials[i], wanted))) return found;
+        if (at == slopes.size()) slopes.push_back(SlopeOf(lamps, settings, dials[i]));
+        const auto& slope = slopes[at++];
+        if (auto found = better(TurnedBack(lamps, settings, dials[i], slope, wanted))) return found;
       }
     }
   }
