@@ -251,12 +251,9 @@ void AddPattern(const FittedLight& light, const Uncertain& strength, bool aimed,
   } else if (!light.distribution || light.distribution->pattern_sd.empty()) {
     return;
   } else {
-    PatternDoubt pattern;
-    for (const double degrees : light.distribution->table.grid().vertical_deg) {
-      pattern.gamma_rad.push_back(RadiansFromDegrees(degrees).value());
-    }
-    pattern.part_sd = light.distribution->pattern_sd;
-    doubt.pattern = std::make_shared<const PatternDoubt>(std::move(pattern));
+    const MeasuredDistribution& measured = *light.distribution;
+    doubt.pattern = std::make_shared<const PatternDoubt>(
+        PatternDoubtOf(measured.table.grid().vertical_deg, measured.pattern_sd));
   }
   doubt.variance_ln_flux = variance;
 }

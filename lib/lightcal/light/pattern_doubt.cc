@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "lightcal/core/uncertain.h"
 #include "lightcal/core/units.h"
@@ -18,6 +19,14 @@ double PatternDoubt::At(double gamma) const {
   const auto i = static_cast<std::size_t>(above - gamma_rad.begin());
   const double part = (gamma - gamma_rad[i - 1]) / (gamma_rad[i] - gamma_rad[i - 1]);
   return part_sd[i - 1] + part * (part_sd[i] - part_sd[i - 1]);
+}
+
+PatternDoubt PatternDoubtOf(const std::vector<double>& gamma_deg, std::vector<double> part_sd) {
+  PatternDoubt out{{}, std::move(part_sd)};
+  for (const double degrees : gamma_deg) {
+    out.gamma_rad.push_back(RadiansFromDegrees(degrees).value());
+  }
+  return out;
 }
 
 PatternDoubt DoubtOfAnyAim() { return {{0.0}, {1.0 / kZ95}}; }

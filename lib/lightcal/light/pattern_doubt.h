@@ -15,6 +15,10 @@ struct PatternDoubt {
   [[nodiscard]] double At(double gamma) const;
 };
 
+// By angles in degrees, of each its part.
+[[nodiscard]] PatternDoubt PatternDoubtOf(const std::vector<double>& gamma_deg,
+                                          std::vector<double> part_sd);
+
 // Of a spot whose beam nobody knows, taken to shine alike to every side: rms over beams of
 //   1 - 2^-(gamma/h)^2,  ln h even between 3 and 60 degrees (full beams of 6 to 120),
 // and no more than what it is taken to send there within 95 %.

@@ -10,6 +10,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/light/lamp_axes.h"
+#include "lightcal/light/pattern_doubt.h"
 #include "lightcal/presets/blender_sphere.h"
 #include "lightcal/records/light_curve.h"
 
@@ -141,15 +142,9 @@ double LeftAt(const ResidualRow& row) {
 double UnsureAt(const FittedLight& lamp, const ResidualRow& row, const Reading& reading) {
   const double own = kZ95 * row.sigma_relative * row.predicted_lx;
   if (!lamp.distribution || lamp.distribution->pattern_sd.empty()) return own;
-  const std::vector<double>& angles = lamp.distribution->table.grid().vertical_deg;
-  const std::vector<double>& sd = lamp.distribution->pattern_sd;
-  const double at = std::abs(DegreesFromRadians(reading.off_axis));
-  const auto next = std::ranges::upper_bound(angles, at);
-  const auto i = static_cast<std::size_t>(next - angles.begin());
-  double there = sd[std::min(i, sd.size()) - (i > 0 ? 1 : 0)];
-  if (i > 0 && i < sd.size()) {
-    there += (sd[i] - sd[i - 1]) * (at - angles[i - 1]) / (angles[i] - angles[i - 1]);
-  }
+  const double there =
+      PatternDoubtOf(lamp.distribution->table.grid().vertical_deg, lamp.distribution->pattern_sd)
+          .At(std::abs(reading.off_axis.value()));
   return std::hypot(own, kZ95 * there * row.facing_lx.value_or(row.predicted_lx));
 }
 
