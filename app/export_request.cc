@@ -28,18 +28,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "20" or "90/180": off the axis, and round it.
+// "20", "90/180", "rim:20" or "rim": before which lamp, how far off its axis, and round it.
 Result<RigPlace> RigPlaceFrom(const std::string& word) {
-  const auto slash = word.find('/');
-  const auto off = ParseNumber(word.substr(0, slash));
+  RigPlace place;
+  std::string angles = word;
+  if (!ParseNumber(word.substr(0, word.find('/')))) {
+    const auto colon = word.rfind(':');
+    place.light = word.substr(0, colon);
+    if (colon == std::string::npos) return place;
+    angles = word.substr(colon + 1);
+  }
+  const auto slash = angles.find('/');
+  const auto off = ParseNumber(angles.substr(0, slash));
   const auto round =
-      slash == std::string::npos ? std::optional(0.0) : ParseNumber(word.substr(slash + 1));
-  if (!off || !round || !(*off > 0.0 && *off <= 180.0) || !(std::abs(*round) <= 360.0)) {
+      slash == std::string::npos ? std::optional(0.0) : ParseNumber(angles.substr(slash + 1));
+  const bool beside = off && (*off > 0.0 || (*off == 0.0 && !place.light.empty()));
+  if (!beside || *off > 180.0 || !round || !(std::abs(*round) <= 360.0)) {
     return WrongUsage("--rig-at", "\"" + word +
                                       "\" is no angle off the axis, above 0 to 180, with or "
-                                      "without one round it: 20 or 90/180");
+                                      "without one round it (20 or 90/180), nor a lamp with or "
+                                      "without them (rim or rim:20)");
   }
-  return RigPlace{*off, *round};
+  place.off_axis_deg = *off;
+  place.round_deg = *round;
+  return place;
 }
 
 }  // namespace

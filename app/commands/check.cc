@@ -15,6 +15,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/check/card_picture.h"
 #include "lightcal/presets/check/render_cause.h"
+#include "lightcal/presets/check/render_lamps.h"
 #include "lightcal/presets/check/render_shape.h"
 #include "lightcal/presets/check/rig_file.h"
 #include "lightcal/presets/preset_table.h"
@@ -47,6 +48,8 @@ Node CauseNode(const RenderCause& cause) {
           {"factor", cause.factor},
           {"turn_deg", cause.turn_deg}};
 }
+
+Node LampNode(const LampFactor& lamp) { return {{"name", lamp.name}, {"factor", lamp.factor}}; }
 
 void PrintVerdict(const CheckedRig& rig, const RenderVerdict& verdict, Console& console) {
   std::vector<std::vector<std::string>> rows;
@@ -109,16 +112,19 @@ Node NodeOf(const SeenPicture& seen) {
                               {"pixel", seen.cards[i].rgb}});
   }
   const RenderVerdict& verdict = seen.verdict;
+  const std::array<SeenRig, 1> alone = {SeenRig{&seen.rig, &verdict}};
   return {{"illuminance_lx", verdict.lux},
           {"expected_lx", verdict.expected_lx},
           {"stops_off", std::log2(verdict.lux / verdict.expected_lx)},
           {"cause", CauseNode(verdict.cause)},
           {"alternatives", Node::List(verdict.alternatives, CauseNode)},
+          {"not_seen", Node::UnlessEmpty(Node::List(LampsNotSeen(alone)))},
           {"cards", measured}};
 }
 
 std::string PlaceText(const CheckedRig& rig) {
-  std::string text = RoundedText(rig.off_axis_deg, 4) + " deg";
+  std::string text = rig.lamps.size() > 1 ? rig.lamps[rig.lamp].name + ", " : "";
+  text += RoundedText(rig.off_axis_deg, 4) + " deg";
   if (rig.round_deg != 0.0) text += " / " + RoundedText(rig.round_deg, 4);
   return text;
 }
@@ -145,6 +151,8 @@ void SayTogether(const std::vector<SeenPicture>& pictures, Console& console) {
   }
   console.PrintDocument({{"cause", CauseNode(causes.front())},
                          {"alternatives", Node::List(others, CauseNode)},
+                         {"lamps", Node::UnlessEmpty(Node::List(LampFactors(seen), LampNode))},
+                         {"not_seen", Node::UnlessEmpty(Node::List(LampsNotSeen(seen)))},
                          {"pictures", std::move(list)}});
 }
 
@@ -197,9 +205,11 @@ Run BuildCheck(CLI::App& parser) {
                   "Exit 1 where the rms over a light's readings is beyond this")
       ->default_str(options->preset.max_error);
   parser
-      .add_option("--render", options->renders,
-                  "A picture an engine rendered of the rig; several, each with its --rig (export "
-                  "--rig-at), show what one cannot: a cone law, a turned or mirrored panorama")
+      .add_option(
+          "--render", options->renders,
+          "A picture an engine rendered of the rig; several, each with its --rig (export "
+          "--rig-at), show what one cannot: a cone law, a turned or mirrored panorama, which "
+          "lamp of several is wrong")
       ->allow_extra_args(false);
   parser.add_option("--rig", options->rigs, "The STEM.preset.json of that rig")
       ->allow_extra_args(false);

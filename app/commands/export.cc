@@ -123,8 +123,9 @@ Run BuildExport(CLI::App& parser) {
       .add_option("--rig-at", options->rig_at,
                   "A rig more, its cards so many degrees off the lamp's axis and round it, facing "
                   "the lamp; of a dome the way they face, from above and from front to right: 20 "
-                  "or 90/180. Pictures of several show a cone law or a turned panorama")
-      ->type_name("OFF[/ROUND]")
+                  "or 90/180; or before another of several lamps: rim or rim:20. Pictures of "
+                  "several show a cone law, a turned panorama, or which lamp is wrong")
+      ->type_name("[LIGHT:]OFF[/ROUND]")
       ->allow_extra_args(false);
   parser
       .add_option(

@@ -220,10 +220,59 @@ class Shapes(unittest.TestCase):
 
         self.assertEqual(self.check(self.painted('factor', rigs, light))['cause']['code'], 'times_pi')
 
+    def test_rigs_of_several_lamps(self):
+        # name -> (where, cd); by the inverse square the key gives nearly all light a metre below itself.
+        lamps = {'key': ([0.0, 0, 3], 900.0), 'fill': ([4.0, 1, 2.5], 300.0), 'rim': ([-3.0, 5, 2], 60.0)}
+        path = os.path.join(self.work, 'set.json')
+        with open(path, 'w') as f:
+            json.dump({'schema': 'lightcal.light/1', 'lights': [
+                {'name': name, 'kind': 'point', 'position_m': where, 'effects': [],
+                 'color': {'xy': [0.3127, 0.3290]}, 'intensity_cd': {'value': candela, 'u95': 1},
+                 'fit': {'readings': 1, 'used': 1, 'rejected': [], 'learned': [], 'prior': []}}
+                for name, (where, candela) in lamps.items()]}, f)
+        rigs = self.export('set', path, '--rig', '--rig-at', 'fill', '--rig-at', 'rim:0')
+        self.assertEqual([os.path.basename(r) for r in rigs],
+                         ['set.rig.preset.json', 'set.rig_fill.preset.json', 'set.rig_rim.preset.json'])
+        preset = load(rigs[0])
+        for card in preset['rig']['cards']:  # what each lamp gives there, in their order
+            for lux, (where, candela) in zip(card['lights_lx'], lamps.values()):
+                to = np.array(card['centre_m']) - where
+                cosine = max(0.0, -(to @ np.array(preset['rig']['normal'])) / np.linalg.norm(to))
+                self.assertAlmostEqual(lux, candela * cosine / (to @ to), delta=1e-6 * candela)
+
+        def judged(factors, chosen):
+            def light(place, normal):
+                sum_lx = 0.0
+                for name, (where, candela) in lamps.items():
+                    to = place - np.array(where)
+                    d = np.linalg.norm(to)
+                    sum_lx += factors.get(name, 1.0) * candela * max(0.0, -(to @ normal)) / d ** 3
+                return [sum_lx] * 3
+            return self.check(self.painted('set', chosen, light))
+
+        alone = judged({'rim': 0.0}, rigs[:1])  # cards before the key cannot see the rim
+        self.assertEqual((alone['cause']['code'], alone['not_seen']), ('none', ['fill', 'rim']))
+        self.assertIn('--rig-at fill', alone['cause']['message'])
+        two = judged({'rim': 0.0}, rigs[:2])
+        self.assertEqual((two['cause']['code'], two['not_seen']), ('none', ['rim']))
+        for factors, code, words in (
+                ({}, 'none', 'key, fill, rim'), ({'rim': math.pi}, 'times_pi', 'rim gives 3.14 times'),
+                ({'fill': 0.6}, 'other_intensity', 'fill gives 0.600 times'),
+                ({name: math.pi for name in lamps}, 'times_pi', 'pi too much'),
+                ({'key': 1.2, 'rim': 4.0}, 'diameter_for_radius', '; key gives 1.20 times what was measured: no known')):
+            with self.subTest(factors=factors):
+                answer = judged(factors, rigs)
+                self.assertEqual(answer['cause']['code'], code, answer['cause'])
+                self.assertIn(words, answer['cause']['message'])
+                self.assertNotIn('not_seen', answer)
+                for lamp in answer['lamps']:
+                    self.assertAlmostEqual(lamp['factor'], factors.get(lamp['name'], 1.0), delta=0.02)
+
     def test_refusals(self):
         spot = self.spot()
         for words, code, exit_code in ((['--rig-at', '30'], 'rig_place', 3), (['--rig-at', '0'], 'usage', 2),
-                                       (['--rig-at', '20/x'], 'usage', 2)):
+                                       (['--rig-at', '20/x'], 'usage', 2), (['--rig-at', 'spto'], 'unknown_light', 3),
+                                       (['--rig-at', 'spot:x'], 'usage', 2)):
             out = os.path.join(self.work, 'refused')
             done = subprocess.run([LIGHTCAL, 'export', spot, '--to', 'json', '-o', out, '--json', *words],
                                   capture_output=True, text=True)

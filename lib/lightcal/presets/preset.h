@@ -39,9 +39,11 @@ struct IntoRow {
 
 // Where a rig's cards stand, at the distance of the reading and facing the lamp: so far off its
 // axis, and round it from its width (C0) to its height (C90). Of a dome: the way they face, from
-// above and then from the picture's middle to its right.
+// above and then from the picture's middle to its right. light: before which lamp; "" = the first
+// that was read at a distance.
 struct RigPlace {
   double off_axis_deg = 0.0, round_deg = 0.0;
+  std::string light{};
 
   [[nodiscard]] bool OnAxis() const { return off_axis_deg == 0.0; }
 };
@@ -58,7 +60,7 @@ struct PresetOptions {
   // <stem>.rig.<ending>: the lights with cards, camera and exposure in a scene of its own.
   bool rig = false;
   RigPlace rig_place{};               // of that rig
-  std::vector<RigPlace> more_rigs{};  // ExportPresets: rigs beside it, <stem>.rig_<angle>.<ending>
+  std::vector<RigPlace> more_rigs{};  // ExportPresets: rigs beside it, <stem>.rig[_<light>][_<angle>].<ending>
   // Not empty: nothing is made; what is written sets lights that are there.
   std::vector<IntoRow> into{};
   ColorTarget color{};  // the space the engine works in, and what its pipeline calls white

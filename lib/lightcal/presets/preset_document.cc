@@ -19,7 +19,9 @@ Node NodeOfCard(const RigCard& card) {
           {"reflectance", card.reflectance},
           {"centre_m", NodeOf(card.centre_m)},
           {"illuminance_lx", card.illuminance},
-          {"luminance_nits", card.luminance}};
+          {"luminance_nits", card.luminance},
+          // Of one light it is the illuminance.
+          {"lights_lx", card.by_light.size() > 1 ? Node::List(card.by_light) : Node()}};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "lightcal/core/file_name.h"
+#include "lightcal/core/file_stem.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/photometry/half_range.h"
 #include "lightcal/presets/environment_files.h"
@@ -176,6 +177,7 @@ std::string SubstitutionNote(const DerivedLight& derived) {
 std::string SceneStem(const std::string& stem, const PresetOptions& options) {
   if (!options.rig) return stem;
   std::string name = stem + ".rig";
+  if (!options.rig_place.light.empty()) name += "_" + FileStem(options.rig_place.light);
   if (options.rig_place.OnAxis()) return name;
   name += "_" + ShortestText(options.rig_place.off_axis_deg);
   if (options.rig_place.round_deg != 0.0) {

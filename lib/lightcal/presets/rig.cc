@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "lightcal/core/did_you_mean.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/photometry/exposure.h"
 #include "lightcal/photometry/lambert.h"
@@ -75,7 +76,8 @@ RigCard CardAt(const char* name, double reflectance, const Vec3& centre, const V
   card.reflectance = reflectance;
   card.centre_m = centre;
   for (const Light& light : lights) {
-    card.illuminance = card.illuminance + IlluminanceAt(light, centre, normal);
+    card.by_light.push_back(IlluminanceAt(light, centre, normal));
+    card.illuminance = card.illuminance + card.by_light.back();
   }
   card.luminance = LuminanceOfLitSurface(card.illuminance, reflectance);
   return card;
@@ -127,10 +129,11 @@ Rig RigUnder(const LightFile& file, std::span<const Light> lights, const RigPlac
   std::size_t chosen = 0;
   std::optional<double> distance;
   for (std::size_t i = 0; i < lights.size() && !distance; ++i) {
+    if (!place.light.empty() && file.lights[i].name != place.light) continue;
     distance = MedianUsedDistance(file.lights[i]);
-    if (distance) chosen = i;
+    if (distance || !place.light.empty()) chosen = i;
   }
-  if (!distance && !place.OnAxis()) chosen = WithAnAxis(file);
+  if (!distance && place.light.empty() && !place.OnAxis()) chosen = WithAnAxis(file);
   const PunctualLight& light = PunctualOf(lights[chosen]);
   Rig rig;
   rig.light = light.name;
@@ -164,13 +167,22 @@ Rig BuildRig(const LightFile& file, std::span<const PresetLight> lights, const R
 }
 
 Result<void> CheckRigPlace(const LightFile& file, const Rig& rig) {
-  if (rig.place.OnAxis()) return {};
+  const std::string& asked = rig.place.light;
+  if (!asked.empty() &&
+      std::ranges::find(file.lights, asked, &FittedLight::name) == file.lights.end()) {
+    return Refused("unknown_light", asked,
+                   "no light is called so" + DidYouMean(asked, file.lights));
+  }
+  if (rig.place.OnAxis() && asked.empty()) return {};
   const auto lamp = std::ranges::find(file.lights, rig.light, &FittedLight::name);
-  if (lamp != file.lights.end() && lamp->kind == LightKind::kDirectional) {
+  if (!rig.place.OnAxis() && lamp != file.lights.end() && lamp->kind == LightKind::kDirectional) {
     return Refused("rig_place", rig.light,
                    "shines from far away and has no axis to stand off; leave out {preset.rig_at}");
   }
   if (rig.cards[0].illuminance.value() > 0.0 && rig.cards[1].illuminance.value() > 0.0) return {};
+  if (rig.place.OnAxis()) {
+    return Refused("rig_place", rig.light, "and the others leave cards on its axis dark");
+  }
   return Refused("rig_place", rig.light,
                  "casts no light " + RoundedText(rig.place.off_axis_deg, 4) +
                      " degrees off its axis; give {preset.rig_at} an angle inside its beam");

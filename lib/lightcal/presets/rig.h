@@ -6,6 +6,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
@@ -15,12 +16,14 @@
 namespace lightcal {
 
 // A square matt card; Z up, metres. Its normal points to the lamp. illuminance is what all lights
-// of the preset cast on its centre; luminance = reflectance * illuminance/pi.
+// of the preset cast on its centre, by_light what each does; luminance = reflectance *
+// illuminance/pi.
 struct RigCard {
   std::string name;
   double reflectance = 0.0;
   Vec3 centre_m{};
   Lux illuminance{0.0};
+  std::vector<Lux> by_light;
   Nits luminance{0.0};
 };
 
@@ -67,7 +70,8 @@ inline constexpr double kGreyCardReflectance = 0.18;
 [[nodiscard]] Rig BuildRig(const LightFile& file, std::span<const PresetLight> lights,
                            const RigPlace& place = {});
 
-// Refused: rig_place (a light from far away has no axis to stand off; the cards would be dark).
+// Refused: rig_place (a light from far away has no axis to stand off; the cards would be dark),
+// unknown_light.
 [[nodiscard]] Result<void> CheckRigPlace(const LightFile& file, const Rig& rig);
 
 // A card's corners, counter-clockwise seen from the lamp, the first at minus row and lowest.

@@ -11,6 +11,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/check/reader_parts.h"
+#include "lightcal/presets/check/render_lamps.h"
 #include "lightcal/presets/check/render_shape.h"
 
 namespace lightcal {
@@ -272,6 +273,8 @@ void NameFactor(const CheckedRig& rig, RenderVerdict& verdict) {
   const double seen = verdict.lux / verdict.expected_lx;
   if (std::abs(std::log(seen)) < kAsItShould) {
     verdict.cause = {"none", "as bright as the meter says", 1.0};
+    const std::array<SeenRig, 1> alone = {SeenRig{&rig, &verdict}};
+    NameLampsNotSeen(alone, verdict.cause);
     return;
   }
   const std::vector<RenderCause> fits = CausesOfFactor(rig, seen);
@@ -298,7 +301,8 @@ Result<RenderVerdict> JudgeRender(const CheckedRig& rig, const std::array<CardPi
   }
   if (!(verdict.lux > 0.0) || cards[1].raw[1] < 2.0 * cards[1].step[1]) {
     return Refused("too_dark", picture,
-                   "the cards are black; lock the rig's exposure, or render to EXR");
+                   "the cards are black: " + rig.lamps[rig.lamp].name +
+                       " does not shine, or lock the rig's exposure, or render to EXR");
   }
   if (auto curve = CurveIn(rig, cards)) {
     verdict.cause = *std::move(curve);

@@ -12,12 +12,12 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units.h"
 #include "lightcal/presets/check/reader_parts.h"
+#include "lightcal/presets/check/render_lamps.h"
 #include "lightcal/presets/engine_cone.h"
 
 namespace lightcal {
 namespace {
 
-constexpr double kAlike = 0.03;  // |ln| between pictures of one scene that is right
 constexpr double kNinth = 0.05;  // the same under a panorama: engines keep nine harmonics of it
 
 // ---- cones ----
@@ -129,7 +129,7 @@ std::vector<RenderCause> JudgeBeam(std::span<const SeenRig> seen) {
     if (std::abs(off) > std::abs(worst)) worst = off;
   }
   std::vector<RenderCause> causes;
-  if (std::abs(worst) < kAlike) {
+  if (std::abs(worst) < kAlikePictures) {
     AddOthers(seen, causes);
     if (causes.empty()) {
       causes.push_back({"none", "as bright as the meter says, on the axis and off it", 1.0, {}});
@@ -235,7 +235,7 @@ std::vector<RenderCause> JudgePanorama(std::span<const SeenRig> seen) {
   }
   std::vector<RenderCause> causes;
   const PanoramaMatch scaled = MatchAt(seen, 0, 0.0, true);
-  if (scaled.misfit < kAlike) {
+  if (scaled.misfit < kAlikePictures) {
     causes = CausesOfFactor(*seen.front().rig, scaled.factor);
     if (causes.front().code != "exposure_unlocked" || seen.size() > 2) return causes;
   }
@@ -285,7 +285,7 @@ std::optional<HungPanorama> FindHungPanorama(std::span<const SeenRig> seen) {
   constexpr std::size_t kFewest = 3;
   constexpr double kNearRight_deg = 4.0;
   PanoramaMatch best = MatchAt(seen, 0, 0.0, true);
-  if (best.misfit >= kAlike) {
+  if (best.misfit >= kAlikePictures) {
     if (seen.size() < kFewest) return std::nullopt;
     for (std::size_t way = 0; way < kMistakenTurns; ++way) {
       const PanoramaMatch match = BestTurn(seen, way, true);
@@ -296,13 +296,15 @@ std::optional<HungPanorama> FindHungPanorama(std::span<const SeenRig> seen) {
     const double right = 90.0 * std::round(best.turn_deg / 90.0);
     if (std::abs(best.turn_deg - right) < kNearRight_deg) {
       const PanoramaMatch match = MatchAt(seen, best.way, std::fmod(right, 360.0), true);
-      if (match.misfit < std::max(kAlike, 1.5 * best.misfit)) best = match;
+      if (match.misfit < std::max(kAlikePictures, 1.5 * best.misfit)) best = match;
     }
   }
   return HungPanorama{best.way, best.turn_deg, best.factor};
 }
 
-std::vector<RenderCause> JudgeTogether(std::span<const SeenRig> seen) {
+namespace {
+
+std::vector<RenderCause> CausesOf(std::span<const SeenRig> seen) {
   // Off the axis a lamp that is turned tells the two cards apart, as a tone curve does.
   const bool on_axis =
       std::ranges::any_of(seen, [](const SeenRig& one) { return one.rig->off_axis_deg == 0.0; });
@@ -313,7 +315,17 @@ std::vector<RenderCause> JudgeTogether(std::span<const SeenRig> seen) {
   if (std::ranges::all_of(seen, [](const SeenRig& one) { return one.rig->panorama.has_value(); })) {
     return JudgePanorama(seen);
   }
-  return JudgeBeam(seen);
+  std::vector<RenderCause> causes = JudgeLamps(seen);
+  if (causes.empty()) causes = JudgeBeam(seen);
+  return causes;
+}
+
+}  // namespace
+
+std::vector<RenderCause> JudgeTogether(std::span<const SeenRig> seen) {
+  std::vector<RenderCause> causes = CausesOf(seen);
+  NameLampsNotSeen(seen, causes.front());
+  return causes;
 }
 
 }  // namespace lightcal

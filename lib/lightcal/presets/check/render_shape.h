@@ -13,6 +13,9 @@
 
 namespace lightcal {
 
+// |ln| between pictures of one scene that is right.
+inline constexpr double kAlikePictures = 0.03;
+
 // A rig and what JudgeRender saw of it.
 struct SeenRig {
   const CheckedRig* rig = nullptr;

@@ -121,6 +121,21 @@ void FindPlace(Finder& find, const Node& json, CheckedRig& rig) {
   }
 }
 
+// Of several lamps, what each gives of the light on both cards.
+void FindShares(const Node& cards, CheckedRig& rig) {
+  const std::size_t count = rig.lamps.size();
+  std::vector<double> shares(count);
+  for (std::size_t i = 0; i < cards.items.size(); ++i) {
+    const Node* list = cards.items[i].Find("lights_lx");
+    if (list == nullptr || list->items.size() != count) return;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!list->items[k].IsNumber() || !(list->items[k].number >= 0.0)) return;
+      shares[k] += list->items[k].number / (2.0 * rig.cards[i].expected_lx);
+    }
+  }
+  rig.lamp_shares = std::move(shares);
+}
+
 bool IsUsable(const CheckedRig& rig) {
   return rig.scale > 0.0 && rig.vertical_fov_rad > 0.0 && rig.vertical_fov_rad < 3.0 &&
          rig.cards[0].expected_lx > 0.0 && rig.cards[1].expected_lx > 0.0 &&
@@ -162,6 +177,7 @@ Result<CheckedRig> RigFromPreset(const std::string& text, const std::string& pat
         "has no usable \"" + find.missing() + "\"; give the <stem>.preset.json that export wrote");
   }
   if (!IsUsable(rig)) return Refused("bad_rig", path, "its rig has numbers that cannot be");
+  FindShares(cards, rig);
   return rig;
 }
 

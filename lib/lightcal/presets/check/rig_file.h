@@ -42,7 +42,8 @@ struct CheckedRig {
   Vec3 camera_m{}, target_m{}, up{};
   double vertical_fov_rad = 0.5;
   std::vector<CheckedLamp> lamps;
-  std::size_t lamp = 0;  // the one whose reading the cards stand at
+  std::size_t lamp = 0;               // the one whose reading the cards stand at
+  std::vector<double> lamp_shares{};  // of the cards' light; empty: one lamp, or an older file
   double off_axis_deg = 0.0, round_deg = 0.0;
   std::optional<CheckedPanorama> panorama{};
 };
