@@ -167,7 +167,7 @@ TEST(Beam, AGaussianIsFoundWithItsFluxAndItsAngles) {
   EXPECT_NEAR(shares, 1.0, 0.02);
 }
 
-// Three readings leave draws of the curve skew: their median flux is 1.6 % below the mean curve's.
+// Three readings leave draws of the curve skew: their median flux was 1.6 % below the mean curve's.
 TEST(Beam, ItsFluxIsThatOfTheCurveThatIsWritten) {
   const TempDir folder;
   const std::string session = folder.Write(

@@ -281,9 +281,7 @@ Result<BeamLight> FitBeamLight(const Observations& observations, const LightDesc
   const double added = std::sqrt(std::max(0.0, out.estimate.covariance[0] - own));
   for (LampInRoom& one : out.estimate.in_room) one.covariance[0] += added * added;
   WidenPeak(factor, added, out.estimate);
-  // That of the table which is written beside it, not the draws' median: one light, one flux.
   out.flux_lm = profile.flux_lm;
-  out.flux_lm.value = std::clamp(out.table.Flux().value(), *out.flux_lm.low, *out.flux_lm.high);
   WidenInLn(out.flux_lm, factor, added);
   out.beam.axial = profile.axial_cd;
   WidenInLn(*out.beam.axial, factor, added);

@@ -178,18 +178,15 @@ Uncertain IntervalOf(const std::vector<BeamDraw>& draws, double BeamDraw::* what
   return {at(0.5), 0.5 * (high - low), low, high};
 }
 
-struct MeanAndSd {
-  double mean = 0.0, sd = 0.0;
-};
 template <class Of>
-MeanAndSd OverDraws(const std::vector<BeamDraw>& draws, const Of& of) {
+double SdOver(const std::vector<BeamDraw>& draws, const Of& of) {
   const auto count = static_cast<double>(draws.size());
   double sum = 0.0;
   double squares = 0.0;
   for (const BeamDraw& draw : draws) sum += of(draw);
   const double mean = sum / count;
   for (const BeamDraw& draw : draws) squares += std::pow(of(draw) - mean, 2.0);
-  return {mean, std::sqrt(squares / count)};
+  return std::sqrt(squares / count);
 }
 
 // Of beams whose shares need not make 1.
@@ -269,20 +266,24 @@ Result<BeamProfile> FitBeamProfile(const BeamReadings& readings, const std::stri
   out.family = out.families.front().name;
 
   for (std::size_t i = 0; i < out.gamma_deg.size(); ++i) {
-    const MeanAndSd there = OverDraws(draws, [&](const BeamDraw& draw) { return draw.candela[i]; });
-    const MeanAndSd part = OverDraws(draws, [&](const BeamDraw& draw) {
+    const double part = SdOver(draws, [&](const BeamDraw& draw) {
       return draw.candela[i] / std::max(draw.candela.front(), 1e-300);
     });
-    out.candela.push_back(there.mean);
-    out.candela_sd.push_back(there.sd);
-    out.part_sd.push_back(part.sd);
+    // Draws of what is hardly seen are skew: their mean far off the axis, where a sphere's most
+    // solid angle is, was several percent of the flux too much.
+    std::vector<double> here;
+    here.reserve(draws.size());
+    for (const BeamDraw& draw : draws) here.push_back(draw.candela[i]);
+    out.candela.push_back(Median(here));
+    out.candela_sd.push_back(SdOver(draws, [&](const BeamDraw& draw) { return draw.candela[i]; }));
+    out.part_sd.push_back(part);
   }
   const auto peak =
       static_cast<std::size_t>(std::ranges::max_element(out.candela) - out.candela.begin());
   for (std::size_t i = 0; i < out.gamma_deg.size(); ++i) {
-    out.pattern_sd.push_back(OverDraws(draws, [&](const BeamDraw& draw) {
-                               return draw.candela[i] / std::max(draw.candela[peak], 1e-300);
-                             }).sd);
+    out.pattern_sd.push_back(SdOver(draws, [&](const BeamDraw& draw) {
+      return draw.candela[i] / std::max(draw.candela[peak], 1e-300);
+    }));
   }
   std::vector<NormalPart> ln;
   for (const SolvedBeam& one : beams) {
@@ -294,9 +295,15 @@ Result<BeamProfile> FitBeamProfile(const BeamReadings& readings, const std::stri
   out.axial_sd_ln = std::log(*out.axial_cd.high / *out.axial_cd.low) / (2.0 * kZ95);
   const double scale = middle / out.candela.front();
   for (double& value : out.candela) value *= scale;
-  out.flux_lm = IntervalOf(draws, &BeamDraw::flux_lm);
-  out.beam_deg = IntervalOf(draws, &BeamDraw::beam_deg);
-  out.field_deg = IntervalOf(draws, &BeamDraw::field_deg);
+  // Figures of the curve that is written beside them, not medians of their own: one light.
+  const auto of_curve = [&](double BeamDraw::* what, double value) {
+    Uncertain interval = IntervalOf(draws, what);
+    interval.value = std::clamp(value, *interval.low, *interval.high);
+    return interval;
+  };
+  out.flux_lm = of_curve(&BeamDraw::flux_lm, FluxThrough(out.gamma_deg).Of(out.candela));
+  out.beam_deg = of_curve(&BeamDraw::beam_deg, WidthAt(out.gamma_deg, out.candela, 0.5));
+  out.field_deg = of_curve(&BeamDraw::field_deg, WidthAt(out.gamma_deg, out.candela, 0.1));
 
   out.whole = MomentsOf(beams);
   out.whole.theta[0] = std::log(middle);

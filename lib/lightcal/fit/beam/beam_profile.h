@@ -46,7 +46,7 @@ struct BeamMoments {
 
 struct BeamProfile {
   std::vector<double> gamma_deg;  // 0 to 90
-  std::vector<double> candela;    // mean of the draws, axial_cd at 0
+  std::vector<double> candela;    // median of the draws, axial_cd at 0
   std::vector<double> candela_sd;
   std::vector<double> part_sd;     // of the intensity there over the axis's
   std::vector<double> pattern_sd;  // of that over the peak's
