@@ -58,6 +58,8 @@ TURN = ("node = [n for n in scene.world.node_tree.nodes if n.type == 'MAPPING'][
 TOGETHER = [
     ('spot', CONE, 'other_cone_law', 'Cycles before 4.0', None),
     ('spot', '', 'cone_as_exported', 'Cycles before 4.0', None),
+    ('set', '', 'none', 'key, fill, rim', None),
+    ('set', "for l in lamps:\n    if 'rim' in l.name: l.energy *= 3.14159265", 'times_pi', 'rim gives 3.14', None),
     ('place', '', 'none', '', None),
     ('place', TURN % ('Rotation', 2, '+= 3.14159265 / 2'), 'panorama_turned', '', 90),
     ('place', TURN % ('Scale', 0, '= -1.0'), 'panorama_mirrored', '', 0),
@@ -98,9 +100,17 @@ def render(args, work):
 
 def together(args, work):
     """What did not come out as TOGETHER has it."""
-    lines = {'spot': ['--rig-at', '18', '--rig-at', '21.5/90'],
+    lines = {'spot': ['--rig-at', '18', '--rig-at', '21.5/90'], 'set': ['--rig-at', 'fill', '--rig-at', 'rim'],
              'place': ['--rig-at', '90', '--rig-at', '90/90', '--rig-at', '90/180']}
-    sources = {'spot': f'{work}/spot_6500K/out/light.json', 'place': f'{work}/beside/light.json'}
+    sources = {'spot': f'{work}/spot_6500K/out/light.json', 'place': f'{work}/beside/light.json',
+               'set': f'{work}/set.json'}
+    with open(sources['set'], 'w') as f:
+        json.dump({'schema': 'lightcal.light/1', 'lights': [
+            {'name': name, 'kind': 'point', 'position_m': where, 'effects': [], 'color': {'xy': [0.3127, 0.3290]},
+             'intensity_cd': {'value': candela, 'u95': 1},
+             'fit': {'readings': 1, 'used': 1, 'rejected': [], 'learned': [], 'prior': []}}
+            for name, where, candela in (('key', [0, 0, 3], 900), ('fill', [4, 1, 2.5], 300),
+                                         ('rim', [-3, 5, 2], 60))]}, f)
     truth = panorama.irradiance()
     panorama.export(args.lightcal, work, truth)
     jobs, rigs = [], {}
