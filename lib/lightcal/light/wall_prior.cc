@@ -24,12 +24,12 @@ struct Family {
   // lies two deviations above. Panels and beams that hang above their meter light more of it.
   WallPrior over_ground;
 };
-const Family kBulb = {{std::log(0.122), 0.42, -1.00, 0.36, -0.27, 0.07},
+const Family kBulb = {{std::log(0.122), 0.42, -1.00, 0.36, -0.27, 0.07, -0.5, 0.26},
                       0.0113,
                       0.27,
                       0.86 * 4 * kPi,
                       {-5.20, 0.75, -0.70, 0.50, -0.40, 0.10}};
-const Family kPanel = {{std::log(0.037), 0.45, -0.45, 0.55, -0.37, 0.14},
+const Family kPanel = {{std::log(0.037), 0.45, -0.45, 0.55, -0.37, 0.14, 0.25, 0.33},
                        0.0120,
                        0.31,
                        kPi,
@@ -42,7 +42,7 @@ const Family kBulbAwayFromWalls = [] {
   return out;
 }();
 // Of unknown angle.
-const Family kBeam = {{std::log(0.0033), 1.25, 0.60, 0.45, 0.0, 0.25},
+const Family kBeam = {{std::log(0.0033), 1.25, 0.60, 0.45, 0.0, 0.25, 1.0, 0.42},
                       0.0082,
                       0.63,
                       0.0,

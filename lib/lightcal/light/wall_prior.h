@@ -21,6 +21,10 @@ struct WallPrior {
   double slope = 0.0, sd_slope = 0.0;
   double bend = 0.0;
   double scatter = 0.0;
+  // A meter turned by theta from the lamp, nobody knows whither, gets 1 + turned (1 - cos theta) of
+  // that; 1 sigma of its ln a radian. Half a sphere sees (1 + cos theta)/2 of what a bulb lights
+  // all round; the wall that a panel or a beam lights comes into sight.
+  double turned = 0.0, sd_turned = 0.3;
 };
 inline constexpr double kWallReference_m = 3.0;
 // 1 sigma of ln E_walls between meters of one place that face elsewhere than the lamp, beside their

@@ -73,8 +73,11 @@ Estimation EstimationUnder(const LampHypothesis& hypothesis, const Prepared& pre
     if (!hypothesis.walls || !SeesWalls(observation, lit_row)) continue;
     const WallPrior& prior = *hypothesis.walls;
     row.walls = WallsAt(prior, observation.distance_m, prepared.scales.length_m);
-    if (observation.tilt_rad > kTurned_rad) {
+    if (observation.tilt_rad > kTurned_rad && observation.normal) {
       row.walls->scatter = std::hypot(prior.scatter, kTurnedScatter);
+    } else if (observation.tilt_rad > kTurned_rad) {
+      row.walls->constant += std::log1p(prior.turned * (1.0 - std::cos(observation.tilt_rad)));
+      row.walls->scatter = std::hypot(prior.scatter, prior.sd_turned * observation.tilt_rad);
     }
     if (!observation.over_range) seeing.push_back({lit_row, &*row.walls, &observation});
   }
