@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -21,6 +22,9 @@ namespace {
 constexpr double kPriorConflict = 2.0;  // prior standard deviations
 // Logarithm of a blunder's density in ln E: one reading in fifty, anywhere within a factor of 150.
 const double kLnBlunder = std::log(0.02 / std::log(150.0));
+
+// Of a lamp that is not built as it was described.
+const double kLnUnlikeItsPrior = std::log(0.05);
 
 void SortByProbability(std::vector<Candidate>& candidates) {
   std::vector<std::size_t> order(candidates.size());  // they are long to move about
@@ -154,6 +158,12 @@ bool HasFarRow(const Candidate& candidate) {
   });
 }
 
+// As likely as its readings and the blunders among them make it.
+void WeighEstimate(Candidate& one) {
+  one.ln_probability = one.ln_prior + LnEvidence(one.estimate.kept, one.estimate.theta) +
+                       kLnBlunder * static_cast<double>(one.estimate.rejected.size());
+}
+
 // Where readings contradict the likeliest, each is estimated robustly, and the likeliest with its
 // blunders takes its place: a blunder bends whatever is told to explain it.
 Result<void> ChooseRobustly(std::vector<Candidate>& candidates) {
@@ -166,21 +176,18 @@ Result<void> ChooseRobustly(std::vector<Candidate>& candidates) {
   if (candidates.size() == 1 || !HasFarRow(candidates.front())) return settle(candidates.front());
   for (Candidate& one : candidates) {
     if (auto settled = settle(one); !settled) return settled;
-    one.ln_probability = one.ln_prior + LnEvidence(one.estimate.kept, one.estimate.theta) +
-                         kLnBlunder * static_cast<double>(one.estimate.rejected.size());
+    WeighEstimate(one);
   }
   SortByProbability(candidates);
   return {};
 }
 
-// The one reading without which the others ask for an offset that its prior allows: "; without
-// reading 0 (302 lx at 0.5 m) they do not, ..."; empty where none or several are.
-std::string ReadingThatAsks(const Estimation& stated, const Prepared& prepared,
-                            const Observations& observations) {
-  constexpr double kNoConflict = 1.0;  // prior standard deviations
+// The row of the one reading without which the others ask for an offset that its prior allows;
+// absent where none or several are.
+std::optional<int> ReadingThatAsks(const Estimation& stated, const Prepared& prepared) {
   constexpr std::size_t kFewest = 3, kMost = 40;
   const ParameterRule& rule = stated.rules[kDistanceOffset];
-  std::string found;
+  std::optional<int> found;
   int lit = 0;
   for (int i = 0; i < prepared.own_rows; ++i) {
     lit += stated.rows[static_cast<std::size_t>(i)].direct_gain > 0.0 ? 1 : 0;
@@ -194,17 +201,35 @@ std::string ReadingThatAsks(const Estimation& stated, const Prepared& prepared,
     const Result<Theta> theta = SolveSettled(rest);
     if (!theta) continue;
     const double pull = std::abs((*theta)[kDistanceOffset] - rule.prior_mean);
-    if (pull > kNoConflict * rule.prior_sd) continue;
-    if (!found.empty()) return "";
-    const auto own = static_cast<std::size_t>(prepared.observation[at]);
-    found = "; without " + NameOfReading(observations.rows[own]) +
-            " they do not, so look at its digits";
+    if (pull > kPriorConflict * rule.prior_sd) continue;
+    if (found) return std::nullopt;
+    found = i;
   }
   return found;
 }
 
+// Every hypothesis without that row, a blunder.
+Result<void> LeaveOut(int row, double offset_m, std::vector<Candidate>& candidates) {
+  for (Candidate& one : candidates) {
+    Estimation rest = one.estimation;
+    rest.rows = Without(one.estimation.rows, {row});
+    Result<RobustEstimate> kept = EstimateRobustly(rest);
+    if (!kept) return Propagate(std::move(kept));
+    for (std::vector<int>* positions : {&kept->rejected, &kept->suspicious}) {
+      for (int& position : *positions) position += position >= row ? 1 : 0;
+    }
+    if (kept->rejected.empty()) kept->offset_of_one_m = offset_m;
+    kept->rejected.push_back(row);
+    std::ranges::sort(kept->rejected);
+    one.estimate = *std::move(kept);
+    WeighEstimate(one);
+  }
+  return {};
+}
+
 // Readings that ask for an offset beyond two standard deviations of its prior widen it, and leave
-// the other hypotheses out.
+// the other hypotheses out. Where it is one reading that asks, that one may be a blunder as well as
+// the lamp unlike its description: both stay, as likely as each makes the readings.
 Result<void> WidenOffset(std::vector<Candidate>& candidates, const Prepared& prepared,
                          const Observations& observations, const std::string& light,
                          Warnings& warnings) {
@@ -227,22 +252,44 @@ Result<void> WidenOffset(std::vector<Candidate>& candidates, const Prepared& pre
   };
   if (pull(first.estimate.theta) <= kPriorConflict * rule.prior_sd) return {};
   const double stated = rule.prior_sd;
-  const std::string odd = ReadingThatAsks(first.estimation, prepared, observations);
+  std::optional<int> odd;
+  // Readings by positions disagree where the lamp stands elsewhere than was said.
+  const bool by_positions =
+      std::ranges::any_of(observations.rows, &Observation::measured_from_center);
+  if (first.estimate.rejected.empty() && !by_positions) {
+    odd = ReadingThatAsks(first.estimation, prepared);
+  }
   rule.prior_sd = 100.0 * stated;
   Result<RobustEstimate> unguided = again(first.estimation);
   if (!unguided) return Propagate(std::move(unguided));
   rule.prior_sd = std::clamp(pull(unguided->theta), kPriorConflict * stated, 100.0 * stated);
+  std::vector<Candidate> widened = {first};
+  Result<RobustEstimate> estimate = again(widened.front().estimation);
+  if (!estimate) return Propagate(std::move(estimate));
+  widened.front().estimate = *std::move(estimate);
+  const double asked_m = unguided->theta[kDistanceOffset] * prepared.scales.length_m;
+  if (odd) {
+    widened.front().ln_prior += kLnUnlikeItsPrior;
+    WeighEstimate(widened.front());
+    rule.prior_sd = stated;
+    if (auto rest = LeaveOut(*odd, asked_m, candidates); !rest) return Propagate(std::move(rest));
+    std::ranges::move(candidates, std::back_inserter(widened));
+    SortByProbability(widened);
+  }
+  candidates = std::move(widened);
+  if (!candidates.front().estimate.rejected.empty()) return {};  // WarnOfRows says why
+  std::string without;
+  if (odd) {
+    const auto own = static_cast<std::size_t>(prepared.observation[static_cast<std::size_t>(*odd)]);
+    without = "; without " + NameOfReading(observations.rows[own]) +
+              " they do not, so look at its digits";
+  }
   warnings.push_back(
       {"prior_conflict", light,
-       "the readings ask for a distance offset of " +
-           RoundedText(unguided->theta[kDistanceOffset] * prepared.scales.length_m, 3) +
+       "the readings ask for a distance offset of " + RoundedText(asked_m, 3) +
            " m, more than two standard deviations of its prior (" +
-           RoundedText(stated * prepared.scales.length_m, 3) + " m)" + odd +
+           RoundedText(stated * prepared.scales.length_m, 3) + " m)" + without +
            "; the prior was widened: check the distances and the lamp's reference point"});
-  Result<RobustEstimate> estimate = again(first.estimation);
-  if (!estimate) return Propagate(std::move(estimate));
-  first.estimate = *std::move(estimate);
-  candidates.resize(1);
   return {};
 }
 

@@ -2,6 +2,7 @@
 // The estimate when some readings may be wrong.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "lightcal/core/result.h"
@@ -15,6 +16,9 @@ struct RobustEstimate {
   std::vector<int> rejected;    // positions in the rows given
   std::vector<int> suspicious;  // four readings or fewer: far from the model, yet none is rejected
   bool bimodal = false;         // two of four disagree with the other two
+  // Of the one rejected row that alone asked for an offset which its prior does not allow, that
+  // offset in metres.
+  std::optional<double> offset_of_one_m{};
 };
 
 // Squared loss when no residual exceeds kSuspiciousResidual. Otherwise, by the number n of readings

@@ -97,9 +97,14 @@ void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
            RoundedText(o.distance_m, 4) + " m)";
   };
   for (const int row : estimate.rejected) {
-    warnings.push_back({"row_rejected", light,
-                        describe(row) + " lies beyond 4.7 standard deviations of the others; it "
-                                        "carries nothing: read again there"});
+    const std::string why =
+        estimate.offset_of_one_m
+            ? " alone asks for a distance offset of " + RoundedText(*estimate.offset_of_one_m, 3) +
+                  " m, more than this lamp's; it carries nothing: look at its digits, or read "
+                  "again there"
+            : " lies beyond 4.7 standard deviations of the others; it carries nothing: read again "
+              "there";
+    warnings.push_back({"row_rejected", light, describe(row) + why});
   }
   if (estimate.bimodal) {
     warnings.push_back({"bimodal", light,
