@@ -184,6 +184,36 @@ void WarnOfCards(const Candidate& likeliest, const std::vector<WallHypothesis>& 
   }
 }
 
+// Walls that the readings' fall asks for and no ordinary room has: a distance or a digit may be
+// wrong instead.
+void WarnOfWalls(const Candidate& likeliest, const std::vector<WallHypothesis>& walls,
+                 const Prepared& prepared, const Observations& observations,
+                 const std::string& light, Warnings& warnings) {
+  constexpr double kFewRooms = 0.01;
+  const Theta& theta = likeliest.estimate.theta;
+  const ReadingRow* farthest = nullptr;
+  std::size_t at = 0;
+  for (int i = 0; i < prepared.own_rows; ++i) {
+    const ReadingRow& row = likeliest.estimation.rows[static_cast<std::size_t>(i)];
+    if (!row.walls || !(row.direct_gain > 0.0)) continue;
+    if (farthest != nullptr && !(row.walls->x > farthest->walls->x)) continue;
+    farthest = &row;
+    at = static_cast<std::size_t>(prepared.observation[static_cast<std::size_t>(i)]);
+  }
+  if (farthest == nullptr || !likeliest.estimation.rules[kLnWalls].free) return;
+  const Observation& told = observations.rows[at];
+  const double per_candela = WallsPerCandela(*farthest, theta.data()) /
+                             (prepared.scales.length_m * prepared.scales.length_m);
+  if (ShareOfRooms(walls, told.distance_m, per_candela) >= kFewRooms) return;
+  const double candela = std::exp(theta[kLnIntensity] + LnUnitOfIntensity(prepared.scales));
+  warnings.push_back(
+      {"walls_implausible", light,
+       "by the way the readings fall " + RoundedText(per_candela * candela, 2) + " of the " +
+           RoundedText(told.raw_lx, 3) + " lx at " + RoundedText(told.distance_m, 3) +
+           " m came off the walls, as in less than one ordinary room of a hundred: look at the "
+           "digits and the distances, or read there behind a card too"});
+}
+
 // Whether a data sheet that agrees takes more than a twentieth off the readings' interval.
 bool TellsMore(const SheetIntensity& sheet, const LightEstimate& read) {
   constexpr double kLeastPart = 1.0 / 3.0;
@@ -267,6 +297,7 @@ Result<LightEstimate> EstimateLight(const Observations& observations, const Forw
     }
   }
   WarnOfCards(candidates.front(), model.walls, prepared, observations, light, out.warnings);
+  WarnOfWalls(candidates.front(), model.walls, prepared, observations, light, out.warnings);
   KeepComparable(candidates);
   const std::vector<double> shares = SharesOf(candidates);
   Candidate& likeliest = candidates.front();
