@@ -134,6 +134,20 @@ Result<void> AddGeometries(const fit::GeometryParts& parts, const LightDescripti
   return {};
 }
 
+// A point shines all round: in every engine, in flux_lm and off its axis.
+void WarnOfOneSidedPoint(const LightDescription& light, const FittedLight& fitted,
+                         Warnings& warnings) {
+  if (fitted.kind != LightKind::kPoint || !light.fixture || !ShinesOneWay(*light.fixture)) return;
+  const bool beam = light.fixture == Fixture::kReflector || light.fixture == Fixture::kFresnel;
+  warnings.push_back(
+      {"one_sided_point", light.name,
+       "a " + std::string(kFixtureNames[static_cast<std::size_t>(*light.fixture)]) +
+           " shines one way and is taken as a point, which shines all round: right the way it was "
+           "read, and nowhere else; " +
+           (beam ? "give its beam angle ({light.beam}), or read it off its axis too"
+                 : "give its size (kind rect or disk), or read it off its axis too")});
+}
+
 // With all its states.
 Result<FittedLight> FitWhole(const Session& session, const LightDescription& light,
                              const FitSettings& settings, FittedSession& out) {
@@ -144,6 +158,7 @@ Result<FittedLight> FitWhole(const Session& session, const LightDescription& lig
   fit::MeasureStates(read, light, settings.cct_method, *fitted, out.warnings);
   auto added = AddGeometries(parts, light, settings, *fitted, out);
   if (!added) return Propagate(std::move(added));
+  WarnOfOneSidedPoint(light, *fitted, out.warnings);
   return fitted;
 }
 

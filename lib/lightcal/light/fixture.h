@@ -23,6 +23,11 @@ enum class Fixture : std::uint8_t {
 inline constexpr std::array<std::string_view, 7> kFixtureNames = {
     "bulb", "cob_bare", "reflector", "fresnel", "panel", "softbox", "luminaire"};
 
+// Whether such a lamp lights one side of itself alone.
+[[nodiscard]] constexpr bool ShinesOneWay(Fixture fixture) {
+  return fixture != Fixture::kBulb && fixture != Fixture::kLuminaire;
+}
+
 // Where the light seems to start: r = d + offset, metres, one part of a normal mixture.
 struct OffsetPart {
   double weight = 1.0;

@@ -79,7 +79,7 @@ double SdByStatedAngle(const LightDescription& light) {
 
 FluxSpread FluxSpreadOf(const LightDescription& light) {
   constexpr FluxSpread kBulb = {0.71, 1.01};
-  constexpr FluxSpread kFlat = {0.25, 1.0};
+  constexpr FluxSpread kFlat = {0.2, 1.0};
   constexpr FluxSpread kAny = {0.0089, 1.0};
   if (light.kind == LightKind::kSphere) return {1.0, 1.0};
   if (const auto beams = BeamsOf(light)) {
