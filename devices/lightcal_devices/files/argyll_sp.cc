@@ -156,7 +156,7 @@ Result<ImportedFile> ReadArgyllSp(std::string_view text, std::string_view name) 
     found.imported.spectrum.quantity = measured == Measured::kAmbient
                                            ? SpectralQuantity::kIrradiance
                                            : SpectralQuantity::kRelative;
-    found.file_unit_W_m2_nm = unit;
+    found.imported.file_unit_W_m2_nm = unit;
     found.device = "argyll";
     found.where = name;
     all.push_back(std::move(found));

@@ -311,7 +311,7 @@ Result<FoundSpectrum> ReadSeries(const CsvTable& table, std::size_t wavelength,
     spectrum.values.push_back(*value * column.scale);
   }
   SortSamples(spectrum);
-  found.file_unit_W_m2_nm = column.scale;
+  found.imported.file_unit_W_m2_nm = column.scale;
   found.where = table.name + (column.series.empty() ? "" : ", column " + column.written);
   return found;
 }

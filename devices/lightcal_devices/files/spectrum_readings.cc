@@ -2,11 +2,11 @@
 #include "lightcal_devices/files/spectrum_readings.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "lightcal/colorimetry/cct.h"
+#include "lightcal/colorimetry/irradiance_units.h"
 #include "lightcal/core/numbers_text.h"
 
 namespace lightcal::devices::files {
@@ -16,19 +16,6 @@ constexpr double kTolerance = 0.01;
 constexpr double kCctTolerance = 0.01;
 constexpr double kDuvTolerance = 0.001;
 constexpr double kXyTolerance = 0.003;
-
-struct IrradianceUnit {
-  std::string_view name;
-  double W_m2_nm;
-};
-constexpr std::array kUnits = {
-    IrradianceUnit{"W m-2 nm-1", 1.0},        IrradianceUnit{"mW m-2 nm-1", 1e-3},
-    IrradianceUnit{"uW m-2 nm-1", 1e-6},      IrradianceUnit{"W cm-2 nm-1", 1e4},
-    IrradianceUnit{"mW cm-2 nm-1", 10.0},     IrradianceUnit{"uW cm-2 nm-1", 1e-2},
-    IrradianceUnit{"nW cm-2 nm-1", 1e-5},     IrradianceUnit{"W m-2 per 5 nm", 0.2},
-    IrradianceUnit{"mW m-2 per 5 nm", 2e-4},  IrradianceUnit{"W m-2 per 10 nm", 0.1},
-    IrradianceUnit{"mW m-2 per 10 nm", 1e-4},
-};
 
 bool IsDark(const Spectrum& spectrum) {
   return std::ranges::none_of(spectrum.values, [](double value) { return value > 0.0; });
@@ -105,15 +92,11 @@ std::optional<Warning> IlluminanceDisagreement(const FoundSpectrum& found, doubl
 
   std::string message = "its spectrum adds up to " + RoundedText(spectrum_lx, 5) +
                         " lx, its header says " + RoundedText(header_lx, 5) + " lx; ";
-  const double lx_per_file_unit = spectrum_lx / found.file_unit_W_m2_nm;
-  const auto fitting = std::ranges::find_if(kUnits, [&](const IrradianceUnit& unit) {
-    return std::abs(lx_per_file_unit * unit.W_m2_nm - header_lx) <= tolerance;
-  });
-  if (fitting == kUnits.end()) {
-    message += "no unit of irradiance makes it fit, so one of the two is wrong";
-  } else {
-    message += "it would fit if the values were " + std::string(fitting->name);
-  }
+  const double relative = header_lx > 0.0 ? tolerance / header_lx : kTolerance;
+  const std::string fitting(
+      IrradianceUnitOf(found.imported.file_unit_W_m2_nm * header_lx / spectrum_lx, relative));
+  message += fitting.empty() ? "no unit of irradiance makes it fit, so one of the two is wrong"
+                             : "it would fit if the values were " + fitting;
   return Warning{"spectrum_disagrees", found.where, message};
 }
 

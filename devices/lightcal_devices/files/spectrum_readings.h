@@ -18,7 +18,6 @@ inline constexpr double kMilliwatt = 1e-3;  // many files' own unit, in W
 // A spectrum as a format's reader found it.
 struct FoundSpectrum {
   ImportedSpectrum imported;       // values already in W m^-2 nm^-1 where they are an irradiance
-  double file_unit_W_m2_nm = 1.0;  // what one unit of the file's own values was taken for
   std::string time;                // ISO 8601, "" = unknown
   std::string device;              // "uprtek:CV600 16K00407", "" = unknown
   std::string where;               // "lamp.xls" or "sweep.csv, column 560nm", for messages

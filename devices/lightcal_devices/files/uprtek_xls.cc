@@ -52,7 +52,7 @@ Result<ImportedFile> ReadUprtekXls(std::string_view text, std::string_view name)
     found.imported.spectrum = std::move(*spectrum);
     found.imported.spectrum.quantity = SpectralQuantity::kIrradiance;
     found.imported.reported = table.Reported(kUprtekLabels, column);
-    found.file_unit_W_m2_nm = kMilliwatt;
+    found.imported.file_unit_W_m2_nm = kMilliwatt;
     found.time = IsoTime(table.Value("Time", column), DateOrder::kYearFirst);
     found.device = "uprtek:" + std::string(table.Value("Model Name", column)) + " " +
                    std::string(table.Value("Serial Number", column));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lightcal/calibrate/session_files.h"
+#include "lightcal/calibrate/spectrum_agreement.h"
 #include "lightcal/colorimetry/resample.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/fit/states/emitters.h"
@@ -39,6 +40,7 @@ Result<Reading> WithSpectrum(const Session& session, const SessionReading& row, 
   const Spectrum spectrum = ThinnedTo(one->imported.spectrum, step_nm);
   const auto xyz = XyzFromSpectrum(spectrum);
   if (!xyz) return tl::unexpected(xyz.error());
+  WarnOfDisagreement(session, row, one->imported, *xyz, evidence.warnings);
   reading.xy = XyFromXyz(*xyz);
   if (reading.color_source == ColorSource::kUnknown) {
     reading.color_source = ColorSource::kSpectrometer;

@@ -38,6 +38,7 @@ struct ImportedSpectrum {
   Spectrum spectrum;
   ReportedColor reported;
   std::string where;  // what warnings about it name: "lamp.xls", "sweep.csv, column 560nm"
+  double file_unit_W_m2_nm = 1.0;  // what one unit of the file's own values was taken for
 };
 
 struct ImportedFile {
@@ -57,8 +58,8 @@ struct ImportedFile {
 // counted from 1): an index into spectra. Refused: unknown_column (lists the names).
 [[nodiscard]] Result<std::size_t> FindSpectrum(const ImportedFile& file, std::string_view column);
 
-// The warning that a header's illuminance is not its spectrum's: neither is a reading then; null where
-// they agree.
+// The warning that a header's illuminance is not its spectrum's: neither is a reading then; null
+// where they agree.
 [[nodiscard]] const Warning* IlluminanceDoubt(const Warnings& warnings);
 
 // The file's warnings without those about its other spectra.
