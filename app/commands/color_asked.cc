@@ -11,6 +11,7 @@
 #include "color_batch.h"
 #include "color_metrics.h"
 #include "color_source.h"
+#include "lightcal/calibrate/spectral_doubt.h"
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/daylight.h"
 #include "lightcal/colorimetry/spectrum.h"
@@ -168,15 +169,6 @@ Result<ColorAnswer> AnswerFor(const ImportedSpectrum& imported, const std::strin
   return answer;
 }
 
-void WarnIfTruncated(const Spectrum& spectrum, const std::string& subject, Console& console) {
-  if (CoversVisibleRange(spectrum)) return;
-  const auto& l = spectrum.wavelengths_nm;
-  console.Warn(
-      {"spectrum_truncated", subject,
-       "covers " + ShortestText(l.front()) + " to " + ShortestText(l.back()) +
-           " nm only; CIE asks for 380 to 780 nm, so colour and illuminance lack the rest"});
-}
-
 // The one spectrum chosen, behind each stack of gels asked for.
 Result<std::vector<BehindGels>> GelsAsked(const ColorOptions& options,
                                           std::vector<ImportedSpectrum>& chosen, Console& console) {
@@ -221,7 +213,7 @@ Result<AnsweredColors> AnswerSpectra(const ColorOptions& options, const ColorExt
       answered.documents.push_back({{"name", imported.name}, {"refused", e.code}});
       continue;
     }
-    WarnIfTruncated(imported.spectrum, subject, console);
+    if (const auto range = WarningOfRange(imported.spectrum, subject)) console.Warn(*range);
     if (NamesIlluminant(options.spectrum)) answer->reported.reset();
     if (options.extra.tlci) {
       auto tlci = TlciByArgyll(imported.spectrum);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "color_words.h"
+#include "lightcal/calibrate/spectral_doubt.h"
 #include "lightcal/colorimetry/engine_kelvin.h"
 #include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
@@ -207,19 +208,13 @@ std::optional<CctNoise> NoiseFound(const Xyz& color, const ColorExtras& extras,
 std::optional<SpectralError> SpectralErrorFound(const Spectrum& spectrum, const std::string& format,
                                                 const ColorExtras& extras,
                                                 const std::string& subject, Warnings& warnings) {
-  const Sampling by_format = format == "csv" || format == "argyll_sp" || format == "tm27_spdx"
-                                 ? Sampling::kUnknown
-                                 : Sampling::kBandAverage;
-  auto error = SpectralErrorOf(spectrum, extras.sampling.value_or(by_format));
+  auto error = SpectralErrorOf(spectrum, extras.sampling.value_or(SamplingOfFormat(format)));
   if (!error) return std::nullopt;
-  if (error->undersampled) {
-    warnings.push_back(
-        {"undersampled", subject,
-         "is sampled every " + ShortestText(error->step.value()) +
-             " nm; if each sample is one wavelength, lines between them are lost, and the error of "
-             "its colour has no bound: say --sampling band if each is the mean over its step, as "
-             "an instrument's is, or give a table of 1 nm"});
-  }
+  const auto warning =
+      WarningOfSampling(spectrum, *error, subject,
+                        "say --sampling band if each is the mean over its step, as an instrument's "
+                        "is, or give a table of 1 nm");
+  if (warning) warnings.push_back(*warning);
   return *std::move(error);
 }
 

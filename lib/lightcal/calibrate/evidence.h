@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lightcal/calibrate/captures/recorded_picture.h"
+#include "lightcal/calibrate/spectral_doubt.h"
 #include "lightcal/colorimetry/spectrum.h"
 #include "lightcal/core/result.h"
 #include "lightcal/records/fixture_state.h"
@@ -18,6 +19,7 @@ struct NamedSpectrum {
   std::string file;  // as the session names it
   Spectrum spectrum;
   FixtureState state{};
+  SpectralDoubt doubt{};
 };
 
 struct Evidence {

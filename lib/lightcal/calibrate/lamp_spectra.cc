@@ -61,7 +61,8 @@ std::vector<NamedSpectrum> LampSpectra(const std::vector<ReadSpectrum>& read) {
     if (!OfTheLampAlone(one)) continue;
     const Reading& reading = one.row.reading;
     const std::optional<Spectrum> alone = BesideItsCard(one, read);
-    Best here{{reading.light, reading.spectrum_file, alone.value_or(one.spectrum), reading.state},
+    Best here{{reading.light, reading.spectrum_file, alone.value_or(one.spectrum), reading.state,
+               one.doubt},
               alone.has_value(),
               DistanceOf(reading)};
     const auto known = std::ranges::find_if(best, [&](const Best& other) {

@@ -14,6 +14,7 @@ namespace lightcal {
 struct ReadSpectrum {
   SessionReading row;  // its colour and illuminance resolved
   Spectrum spectrum;   // as its file has it
+  SpectralDoubt doubt{};
 };
 
 // One a light and state of its controls that was read with no other lamp lit: what a reading and

@@ -21,7 +21,8 @@ Result<OneSpectrum> ReadTheOneSpectrum(const Sources& sources, const std::string
                        " spectra, one is needed; import the column you mean with "
                        "{ImportFile} {import.column} NAME");
   }
-  return OneSpectrum{std::move(imported->spectra.front()), std::move(imported->warnings)};
+  return OneSpectrum{std::move(imported->spectra.front()), std::move(imported->format),
+                     std::move(imported->warnings)};
 }
 
 }  // namespace lightcal

@@ -15,6 +15,7 @@ void NoteInputFile(const std::string& path, Session& session);
 
 struct OneSpectrum {
   ImportedSpectrum imported;
+  std::string format;  // ImportedFile::format
   Warnings warnings;
 };
 // The only spectrum of a meter's file.  Refused: several_spectra, whose subject is `where`, and as

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lightcal/calibrate/session_files.h"
+#include "lightcal/calibrate/spectral_doubt.h"
 #include "lightcal/calibrate/spectrum_agreement.h"
 #include "lightcal/colorimetry/resample.h"
 #include "lightcal/colorimetry/spectrum.h"
@@ -24,6 +25,24 @@ Spectrum ThinnedTo(const Spectrum& spectrum, double step_nm) {
   auto wider = ResampleByArea(spectrum, Nanometres(edges.front() + 0.5 * step_nm),
                               Nanometres(step_nm), count);
   return wider ? *std::move(wider) : spectrum;
+}
+
+// A table that a meter's own driver wrote holds means over its steps as the meter's own file does.
+SpectralDoubt DoubtOfFile(const OneSpectrum& one, const Reading& reading, Evidence& evidence) {
+  const Spectrum& spectrum = one.imported.spectrum;
+  const bool by_driver = one.format == "csv" && !reading.device.empty();
+  const auto error =
+      SpectralErrorOf(spectrum, by_driver ? Sampling::kBandAverage : SamplingOfFormat(one.format));
+  if (!error) return {};
+  const auto warn = [&](const std::optional<Warning>& warning) {
+    if (warning) evidence.AddWarnings({*warning});
+  };
+  warn(WarningOfRange(spectrum, reading.spectrum_file));
+  warn(WarningOfSampling(
+      spectrum, *error, reading.spectrum_file,
+      "the interval holds what is usual of lamps with lines; give a table of 1 nm, "
+      "or the file that the instrument's program wrote"));
+  return DoubtOf(spectrum, *error);
 }
 
 }  // namespace
@@ -54,7 +73,7 @@ Result<Reading> WithSpectrum(const Session& session, const SessionReading& row, 
     reading.illuminance = Lux(xyz->Y);
   }
   evidence.AddFile(path);
-  read.push_back({row, one->imported.spectrum});
+  read.push_back({row, one->imported.spectrum, DoubtOfFile(*one, row.reading, evidence)});
   read.back().row.reading = reading;
   return reading;
 }
@@ -75,9 +94,12 @@ void TakeSpectra(const std::vector<NamedSpectrum>& spectra, FittedLight& light) 
     if (one.light != light.name) continue;
     if (SameState(one.state, light.state) && !light.spectrum) {
       light.spectrum = thinned(one.spectrum);
+      WidenBy(one.doubt, light.color);
     }
     for (MeasuredState& state : light.states) {
-      if (SameState(one.state, state.state)) state.spectrum = thinned(one.spectrum);
+      if (!SameState(one.state, state.state)) continue;
+      state.spectrum = thinned(one.spectrum);
+      WidenBy(one.doubt, state.color);
     }
   }
   fit::FindEmitters(light);
