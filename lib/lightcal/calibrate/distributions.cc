@@ -40,6 +40,12 @@ Result<LightDescription> WithDistribution(const Session& session, const LightDes
   auto read = sources.read_photometric(paths.front());
   if (!read) return Propagate(std::move(read));
   evidence.AddWarnings(read->warnings);
+  if (read->file.header.tilt) {
+    evidence.AddWarnings(
+        {{"tilt_dropped", light.name,
+          paths.front() + " says how its lamp dims when tilted (TILT), which is "
+                          "not applied: the intensities are those of the tested position"}});
+  }
   auto table = AsTypeC(std::move(read->file.table));
   if (!table) return Propagate(std::move(table));
   if (step_deg > 0.0) table = ThinnedTable(*table, step_deg);
