@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lightcal/calibrate/distributions.h"
 
+#include <cmath>
 #include <utility>
 
 #include "lightcal/core/file_stem.h"
+#include "lightcal/core/vec3.h"
 #include "lightcal/light/thin_table.h"
 #include "lightcal/records/photometric_type_c.h"
 
@@ -50,6 +52,12 @@ Result<LightDescription> WithDistribution(const Session& session, const LightDes
   if (!table) return Propagate(std::move(table));
   if (step_deg > 0.0) table = ThinnedTable(*table, step_deg);
   if (!table) return Propagate(std::move(table));
+  constexpr double kAlong = 0.9998;  // cosine of 1 degree
+  if (light.axis && light.aim && std::abs(Dot(*light.axis, *light.aim)) > kAlong) {
+    evidence.AddWarnings({{"axis_along_aim", light.name,
+                           "its axis lies along its aim and turns nothing: axis is where the C0 "
+                           "plane of its file points, across the aim"}});
+  }
   LightDescription described = light;
   if (!described.flux) described.flux = table->Flux();
   described.distribution = *std::move(table);
