@@ -18,9 +18,11 @@
 
 namespace lightcal::fit {
 
-// ln I, I in cd, by the lamp's data sheet; 1 sigma.
+// ln I, I in cd, by the lamp's data sheet; 1 sigma. `far_sd`: of lamps that are farther off it than
+// that tells (WithSheet); 0: sd tells of all.
 struct SheetIntensity {
   double ln_cd = 0.0, sd = 0.0;
+  double far_sd = 0.0;
 };
 
 // What the effect gate decided for this light's forward model.

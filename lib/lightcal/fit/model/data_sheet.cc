@@ -201,7 +201,11 @@ std::optional<SheetIntensity> SheetBeside(const Session& session, const Observat
   const auto sheet = IntensityFromDataSheet(light);
   if (!sheet) return std::nullopt;
   const double low = std::log(*sheet->low), high = std::log(*sheet->high);
-  return SheetIntensity{0.5 * (low + high), (high - low) / (2.0 * kZ95)};
+  const double sd = (high - low) / (2.0 * kZ95);
+  // A file is of one specimen at its rated current: others differ by driver, age, lamp and filter.
+  // Where the kind's pattern is unknown its spread is the larger.
+  constexpr double kFarOff = 2.5;
+  return SheetIntensity{0.5 * (low + high), sd, light.distribution ? kFarOff * sd : 0.0};
 }
 
 std::optional<Uncertain> ByReadings(const LightEstimate& estimate, const FittedLight& out) {

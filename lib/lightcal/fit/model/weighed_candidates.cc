@@ -50,10 +50,10 @@ std::vector<double> SharesOf(std::vector<Candidate>& candidates) {
 
 namespace {
 
-// The candidate with ln I also N(sheet), and the density of the sheet's value under it.
-double TellIntensity(const SheetIntensity& sheet, Candidate& one) {
-  const double variance = one.covariance[kLnIntensity] + sheet.sd * sheet.sd;
-  const double off = sheet.ln_cd - one.estimate.theta[kLnIntensity];
+// The candidate with ln I also N(ln_cd, sd), and the density of that value under it.
+double TellIntensity(double ln_cd, double sd, Candidate& one) {
+  const double variance = one.covariance[kLnIntensity] + sd * sd;
+  const double off = ln_cd - one.estimate.theta[kLnIntensity];
   std::array<double, kParameters> gain{};
   for (int i = 0; i < kParameters; ++i) gain[i] = one.covariance[i * kParameters] / variance;
   for (int i = 0; i < kParameters; ++i) {
@@ -66,6 +66,15 @@ double TellIntensity(const SheetIntensity& sheet, Candidate& one) {
   return std::exp(-0.5 * off * off / variance) / std::sqrt(2.0 * std::numbers::pi * variance);
 }
 
+// How many lamps in one are farther off the sheet than its own sd tells. Readings that know less
+// than the sheet does say nothing of that, and never widen what it says.
+double FarOff(const SheetIntensity& sheet, const Candidate& one) {
+  constexpr double kMost = 0.7;
+  if (!(sheet.far_sd > 0.0)) return 0.0;
+  const double known = sheet.sd * sheet.sd / (sheet.sd * sheet.sd + one.covariance[kLnIntensity]);
+  return kMost * known * known;
+}
+
 }  // namespace
 
 WeighedCandidates WithSheet(const SheetIntensity& sheet, const std::vector<Candidate>& candidates,
@@ -75,13 +84,22 @@ WeighedCandidates WithSheet(const SheetIntensity& sheet, const std::vector<Candi
   static const double kLnReach = std::log(1.2 / 0.05);
   std::vector<std::pair<double, Candidate>> weighed;
   double whole = 0.0, held = 0.0;
+  const auto add = [&](double weight, Candidate one) {
+    weighed.emplace_back(weight, std::move(one));
+    whole += weight;
+    return weight;
+  };
+  const auto add_told = [&](const Candidate& one, double weight, double sd) {
+    Candidate told = one;
+    const double density = TellIntensity(sheet.ln_cd, sd, told);
+    return add(weight * density, std::move(told));
+  };
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    Candidate told = candidates[i];
-    const double density = TellIntensity(sheet, told);
-    weighed.emplace_back(shares[i] * kHeld * density, std::move(told));
-    weighed.emplace_back(shares[i] * (1.0 - kHeld) / kLnReach, candidates[i]);
-    held += weighed[weighed.size() - 2].first;
-    whole += weighed.back().first + weighed[weighed.size() - 2].first;
+    const Candidate& one = candidates[i];
+    const double far_off = FarOff(sheet, one);
+    held += add_told(one, shares[i] * kHeld * (1.0 - far_off), sheet.sd);
+    if (far_off > 0.0) add_told(one, shares[i] * kHeld * far_off, sheet.far_sd);
+    add(shares[i] * (1.0 - kHeld) / kLnReach, one);
   }
   std::ranges::stable_sort(weighed, std::ranges::greater(), &std::pair<double, Candidate>::first);
   WeighedCandidates out;

@@ -25,7 +25,8 @@ struct WeighedCandidates {
 
 // Each candidate twice, by Bayes' rule for normal variables: with ln I also N(sheet), and, for one
 // lamp in twenty, as it was, its ln I anywhere from a twentieth of the sheet's intensity to 1.2 of
-// it: dimmed, aged, or another lamp. The likeliest first. `sheet` in the solver's units.
+// it: dimmed, aged, or another lamp. A third time with far_sd where the sheet has one, the oftener
+// the better the readings know. The likeliest first. `sheet` in the solver's units.
 [[nodiscard]] WeighedCandidates WithSheet(const SheetIntensity& sheet,
                                           const std::vector<Candidate>& candidates,
                                           const std::vector<double>& shares);

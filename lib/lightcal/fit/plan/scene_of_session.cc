@@ -87,6 +87,11 @@ std::optional<Fixture> FixtureOf(const LightDescription& light) {
   }
 }
 
+// Of a lamp that nobody says more of than its photometric file, whose intensities are about the
+// middle of its luminous opening (LM-63-2002, CIE 121): no mount and no diffuser before it counts,
+// but its light may start somewhat deeper. By judgement: twice that of a mounted luminaire.
+constexpr OffsetPart kFromOpening = {1.0, 0.0, 0.04};
+
 // Whether the lamp glows; absent where nobody says. A chip on a board and a panel do not.
 std::optional<bool> BurnsFilament(const Session& session, const LightDescription& light) {
   const LampClass lamp = ClassOfLamp(session, light.name);
@@ -195,8 +200,13 @@ void AddPriors(const Session& session, const LightDescription& light,
   const auto held = [](const Observation& o) { return o.lit && !o.data_sheet; };
   if (!light.fixture && std::ranges::none_of(observations.rows, held)) return;
   if (HasDistanceLaw(light.kind)) scene.makes = PossibleMakes(SpreadOf(light));
-  const auto parts = OffsetParts(FixtureOf(light));
-  scene.offsets.assign(parts.begin(), parts.end());
+  const std::optional<Fixture> fixture = FixtureOf(light);
+  if (!fixture && light.kind == LightKind::kPhotometric) {
+    scene.offsets = {kFromOpening};
+  } else {
+    const auto parts = OffsetParts(fixture);
+    scene.offsets.assign(parts.begin(), parts.end());
+  }
   // Distances end at a ball's surface or at its centre; nobody said.
   if (light.kind == LightKind::kSphere && light.diameter && scene.offsets.size() == 1) {
     OffsetPart centre = scene.offsets.front();
