@@ -101,7 +101,7 @@ std::string WhyTheyDiffer(const LampAnswer& answer) {
 
 // ---- why ----
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 17> kPartWords = {
+constexpr std::array<std::pair<std::string_view, std::string_view>, 18> kPartWords = {
     {{"room_bounce", "walls"},
      {"meter_calibration", "meter"},
      {kCameraScale, "the camera's scale"},
@@ -115,6 +115,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 17> kPartWor
      {"ambient", "other light"},
      {"shadow_card", "what the card hides"},
      {"cone", "the beam's shape"},
+     {"aim", "where it aims"},
      {"meter_tilt", "how the meter was turned"},
      {"distance_error", "the tape measure"},
      {"spectral_mismatch", "the meter's colour response"},

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -174,6 +175,78 @@ TEST(PhotometricSession, AMeterThatContradictsTheFileIsBelieved) {
     // Three standard deviations of both: file 5 %, meter 2 %, 4 cm of 2 m.
     if (std::abs(std::log(factor)) < 3.0 * 0.066) continue;
     EXPECT_NE(warnings.find("data_sheet_disagrees"), std::string::npos) << factor << warnings;
+  }
+}
+
+// A downlight whose light halves 15 degrees off its axis, said to hang plumb and off by two.
+std::string DownlightIes() {
+  std::ostringstream ies;
+  ies << "IESNA:LM-63-2002\r\n[TEST] 1\r\n[MANUFAC] Ours\r\n[LUMINAIRE] down\r\nTILT=NONE\r\n"
+      << "1 -1 1 37 1 1 2 0 0 0\r\n1 1 60\r\n";
+  for (int i = 0; i < 37; ++i) ies << 2.5 * i << (i < 36 ? " " : "\r\n0\r\n");
+  for (int i = 0; i < 37; ++i) ies << 2000.0 * std::exp2(-i * i / 36.0) << (i < 36 ? " " : "\r\n");
+  return ies.str();
+}
+double DownlightCandela(double degrees) { return 2000.0 * std::exp2(-degrees * degrees / 225.0); }
+
+struct TiltedBy {
+  double x_deg, y_deg;
+};
+// What meters that face the lamp read; its aim leans towards +x and +y.
+std::string ReadPlumb(const TiltedBy& tilt, double factor) {
+  std::ostringstream rows;
+  rows.precision(12);
+  const double tx = std::tan(tilt.x_deg * kRad), ty = std::tan(tilt.y_deg * kRad);
+  for (const auto& [x, y, z] : {std::array{0.0, 0.0, 0.75},
+                                {0.5, 0.1, 0.75},
+                                {-0.3, 0.5, 0.0},
+                                {-0.5, -0.4, 0.75},
+                                {0.3, -0.7, 0.0}}) {
+    const double down = 3.0 - z;
+    const double r2 = x * x + y * y + down * down;
+    const double cosine = (x * tx + y * ty + down) / std::sqrt(r2 * (1.0 + tx * tx + ty * ty));
+    const double lux = factor * DownlightCandela(std::acos(cosine) / kRad) / r2;
+    rows << "[[reading]]\nlight = \"key\"\nmeter = \"m\"\nposition_m = [" << x << ", " << y << ", "
+         << z << "]\nnormal = [" << -x << ", " << -y << ", " << down
+         << "]\nilluminance_lx = " << lux << "\n";
+  }
+  return rows.str();
+}
+std::string WithAxisSigma(std::string text, double degrees) {
+  std::ostringstream line;
+  line << "off_axis_sigma_deg = " << degrees << "\n";
+  return text.insert(text.find("aim"), line.str());
+}
+
+// One degree off took 6 % and refused a third of such lamps.
+TEST(PhotometricSession, AnAimThatIsOffIsFoundFromTheReadings) {
+  const TempDir session;
+  session.Write("captures/key.ies", DownlightIes());
+  for (const TiltedBy& tilt : {TiltedBy{0, 0}, {2, 0}, {-1, 1.5}, {1.5, 2}}) {
+    session.Write("session.toml", WithAxisSigma(Toml(ReadPlumb(tilt, 1.2)), 2.0));
+    const json lamp = RunSession(session)["lights"][0];
+    EXPECT_NEAR(lamp["intensity_cd"]["value"].get<double>() / 2400.0, 1.0, 0.03) << tilt.x_deg;
+    EXPECT_LT(lamp["intensity_cd"]["low95"], 2400.0) << tilt.x_deg;
+    EXPECT_GT(lamp["intensity_cd"]["high95"], 2400.0) << tilt.x_deg;
+    EXPECT_NEAR(lamp["aim"][0].get<double>(), std::tan(tilt.x_deg * kRad), 0.006) << tilt.x_deg;
+    EXPECT_NEAR(lamp["aim"][1].get<double>(), std::tan(tilt.y_deg * kRad), 0.006) << tilt.x_deg;
+  }
+}
+
+// off_axis_sigma_deg changed nothing of such a lamp.
+TEST(PhotometricSession, AnAxisThatAnglesCountFromIsFoundToo) {
+  const TempDir session;
+  session.Write("captures/key.ies", DownlightIes());
+  for (const double off : {-4.0, 0.0, 3.0}) {
+    std::ostringstream rows;
+    for (const int angle : {0, 10, -10, 20, -20}) {
+      rows << "[[reading]]\nlight = \"key\"\nmeter = \"m\"\ndistance_m = 2\noff_axis_deg = "
+           << angle << "\nilluminance_lx = " << 1.2 * DownlightCandela(angle + off) / 4.0 << "\n";
+    }
+    session.Write("session.toml", WithAxisSigma(Toml(rows.str()), 3.0));
+    const json found = RunSession(session)["lights"][0]["intensity_cd"];
+    EXPECT_LT(found["low95"], 2400.0) << off;
+    EXPECT_GT(found["high95"], 2400.0) << off;
   }
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <memory>
 
 #include "lightcal/fit/model/solve.h"
 
@@ -54,6 +56,12 @@ TEST_P(EachCost, GrowsWhenTheModelIsTooBrightUnlessTheMeterWasOverRange) {
   }
 }
 
+// A lamp that falls off evenly as it is turned away.
+std::shared_ptr<const std::function<double(double, double)>> AsAimed() {
+  return std::make_shared<const std::function<double(double, double)>>(
+      [](double x, double y) { return 1.0 + 0.3 * x - 0.2 * y; });
+}
+
 TEST_P(EachCost, HasTheDerivativeThatFiniteDifferencesShow) {
   for (const AxialShape& shape : {AxialShape{}, AxialShape{AxialShape::Outline::kDisk, 0.4, 0.0},
                                   AxialShape{AxialShape::Outline::kRect, 0.3, 0.5},
@@ -61,6 +69,7 @@ TEST_P(EachCost, HasTheDerivativeThatFiniteDifferencesShow) {
     ReadingRow row = RowAtTruth(GetParam(), shape);
     row.walls = {.x = -0.6, .constant = -0.1, .scatter = 0.1};
     row.scale = 0.8;
+    row.by_aim = AsAimed();
     row.measured = 1.2 * RowIlluminance(row, kTruth.data());  // away from the censored cost's kink
     const RowDerivative at = DifferentiateRow(row, kTruth);
     for (int k = 0; k < kParameters; ++k) {
@@ -80,6 +89,7 @@ TEST_P(EachCost, HasTheSecondDerivativesOfItsFirst) {
   ReadingRow row = RowAtTruth(GetParam(), {AxialShape::Outline::kRect, 0.3, 0.5});
   row.walls = {.x = -0.6, .constant = -0.1, .scatter = 0.1};
   row.scale = 0.8;
+  row.by_aim = AsAimed();
   row.measured = 1.2 * RowIlluminance(row, kTruth.data());
   double residual = 0.0;
   std::array<double, kParameters> gradient{};

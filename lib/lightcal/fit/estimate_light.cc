@@ -55,7 +55,7 @@ void Unscale(const Scales& scales, LightEstimate& out) {
   out.theta[kLnIntensity] += ln_unit;
   out.theta[kDistanceOffset] *= scales.length_m;
   out.theta[kAmbient] *= scales.illuminance_lx;
-  const Theta unit = {1.0, scales.length_m, scales.illuminance_lx, 1.0, 1.0, 1.0};
+  const Theta unit = {1.0, scales.length_m, scales.illuminance_lx, 1.0, 1.0, 1.0, 1.0, 1.0};
   for (int i = 0; i < kParameters; ++i) {
     for (int j = 0; j < kParameters; ++j) out.covariance[i * kParameters + j] *= unit[i] * unit[j];
   }

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "lightcal/core/uncertain.h"
+#include "lightcal/core/units.h"
 #include "lightcal/fit/beam/spot_beam.h"
 #include "lightcal/fit/estimate_light.h"
+#include "lightcal/fit/model/aim_error.h"
 #include "lightcal/fit/model/asked_sampling.h"
 #include "lightcal/fit/model/budget.h"
 #include "lightcal/fit/model/data_sheet.h"
@@ -37,6 +39,18 @@ void WidenByCone(double variance_of_ln, LightEstimate& estimate) {
   estimate.variance_parts.push_back({"cone", variance_of_ln});
 }
 
+// Where the readings told it.
+void TellAim(const LightEstimate& estimate, const LightDescription& light, FittedLight& out) {
+  if (std::ranges::find(estimate.diagnostics.learned, "aim") ==
+      estimate.diagnostics.learned.end()) {
+    return;
+  }
+  if (!light.aim || !light.position_m) return;
+  out.aim = Tilt(light, estimate.theta[kAimX], estimate.theta[kAimY]).aim;
+  const double sd = std::max(SdOf(estimate.covariance, kAimX), SdOf(estimate.covariance, kAimY));
+  out.aim_u95_deg = kZ95 * DegreesFromRadians(Radians(sd));
+}
+
 }  // namespace
 
 Result<FittedLight> FitByDistance(const Session& session, const LightDescription& light,
@@ -52,6 +66,7 @@ Result<FittedLight> FitByDistance(const Session& session, const LightDescription
   }
   const LightDescription seen = beam ? WithBeam(light, *beam) : light;
   const int beyond = PlaceOnSource(seen, beam.has_value(), observations);
+  if (!beam) LetAimMove(light, observations);
   if (observations.rows.empty()) {
     const auto rejected = std::ranges::find(observations.warnings, "row_rejected", &Warning::code);
     return Refused(
@@ -101,6 +116,7 @@ Result<FittedLight> FitByDistance(const Session& session, const LightDescription
     estimate->diagnostics.learned.emplace_back("cone");
   }
   FillParameters(*estimate, distance_law, out);
+  TellAim(*estimate, light, out);
   out.uneven = UnevenOf(observations, seen);
   if (TakenToShineEvenly(observations, seen)) {
     session_out.notes.push_back(SayThatItShinesEvenly(light.name));

@@ -22,9 +22,11 @@
 #include "lightcal/fit/model/fill_light.h"
 #include "lightcal/fit/model/input_checks.h"
 #include "lightcal/fit/model/observations.h"
+#include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/model/reading_times.h"
 #include "lightcal/fit/states/measure_states.h"
 #include "lightcal/fit/states/split_geometries.h"
+#include "lightcal/photometry/spot_cone.h"
 
 namespace lightcal {
 namespace {
@@ -51,9 +53,14 @@ Result<FittedLight> FitUnread(const LightDescription& light, const fit::Observat
                            observations.warnings.front().message);
 }
 
-// No reading thrown out, and the others as near as they scatter.
-bool SuitsReadings(const FittedLight& fitted) {
+// No reading thrown out, and the others as near as they scatter, about an axis near the stated one.
+bool SuitsReadings(const LightDescription& light, const FittedLight& fitted) {
   constexpr double kChiSquared = 3.0;  // a degree of freedom
+  constexpr double kAimStands = 2.0;   // standard deviations
+  if (light.aim && fitted.aim &&
+      AngleFromAim(*light.aim, *fitted.aim) > kAimStands * fit::AngleSigma(light)) {
+    return false;
+  }
   return std::ranges::all_of(fitted.residuals, &ResidualRow::used) &&
          fitted.fit.chi2_dof.value_or(1.0) < kChiSquared;
 }
@@ -97,7 +104,7 @@ Result<FittedLight> FitStrength(const Session& session, const LightDescription& 
       fit::LacksInner(light, *observations)
           ? fit::FitUnstatedInner(session, light, *observations, settings, out, session_out)
           : fit::FitByDistance(session, light, *observations, settings, out, session_out);
-  if (fitted && SuitsReadings(*fitted)) return fitted;
+  if (fitted && SuitsReadings(light, *fitted)) return fitted;
   if (auto cone = fit::CheckStatedCone(session, light, *observations, settings, fitted.has_value());
       !cone) {
     return Propagate(std::move(cone));

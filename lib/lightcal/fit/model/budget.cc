@@ -15,7 +15,7 @@ namespace {
 constexpr double kLeastShare = 1e-6;
 
 // What halves the standard deviation that a cause makes.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 38> kCures = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 39> kCures = {{
     {"readings", "four times as many readings"},
     {"meter_calibration", "another meter beside this one, or one calibrated twice as well"},
     {kCameraScale, "one lux reading of this light, or a calibrated camera"},
@@ -23,6 +23,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 38> kCures =
     {"uneven_light", "readings from all sides of the lamp, or a luminaire's own file"},
     {"distance_offset", "readings at distances that span 8 : 1, the farthest twice as far"},
     {"ambient", "a lamp-off or shadow-card reading at each distance"},
+    {"aim", "readings all round the axis, or the aim set better and off_axis_sigma_deg"},
     {"cone", "four times as many readings between the beam's middle and its edge"},
     {"finite_source", "stand 1.4 times as far away, or state the lamp's size"},
     {"sphere_surface", "state position_m, so that distances reach the centre"},
@@ -89,6 +90,7 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   estimation.rules[kDistanceOffset] = {};
   estimation.rules[kAmbient] = {};
   estimation.rules[kLnWalls] = estimation.rules[kWallsSlope] = {};
+  estimation.rules[kAimX] = estimation.rules[kAimY] = {};
   const double readings = IntensityVariance(some);
   for (ReadingRow& row : estimation.rows) row.calibration = 0.0;
   estimation.rules[kLnScale] = {};
@@ -102,6 +104,9 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   estimation.rules[kLnScale] = rules[kLnScale];
   estimation.rules[kDistanceOffset] = rules[kDistanceOffset];
   const double with_offset = IntensityVariance(some);
+  estimation.rules[kAimX] = rules[kAimX];
+  estimation.rules[kAimY] = rules[kAimY];
+  const double with_aim = IntensityVariance(some);
   estimation.rules[kLnWalls] = rules[kLnWalls];
   estimation.rules[kWallsSlope] = rules[kWallsSlope];
   const double with_walls = IntensityVariance(some);
@@ -117,9 +122,11 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   }
   const double first = std::min(readings, whole);
   const double second = std::clamp(with_offset - readings, 0.0, whole - first);
-  const double third = std::clamp(with_walls - with_offset, 0.0, whole - first - second);
-  parts.front().variance = whole - first - second - third;
+  const double aimed = std::clamp(with_aim - with_offset, 0.0, whole - first - second);
+  const double third = std::clamp(with_walls - with_aim, 0.0, whole - first - second - aimed);
+  parts.front().variance = whole - first - second - aimed - third;
   parts.push_back({"distance_offset", second});
+  if (aimed > 0.0) parts.push_back({"aim", aimed});
   if (third > 0.0) parts.push_back({"room_bounce", third});
   const double calibration = std::clamp(readings - repeated, 0.0, first);
   if (calibration > 0.0) parts.push_back({"meter_calibration", calibration});

@@ -15,7 +15,8 @@ namespace {
 constexpr double kStretch = 1.2;  // farthest over nearest
 
 bool MayMerge(const ReadingRow& row) {
-  return row.form == RowForm::kLog && row.direct_gain > 0.0 && !row.off_axis && !row.data_sheet;
+  return row.form == RowForm::kLog && row.direct_gain > 0.0 && !row.off_axis && !row.by_aim &&
+         !row.data_sheet;
 }
 
 auto KindOf(const ReadingRow& row) {

@@ -3,12 +3,16 @@
 // put to their use, impossible rows set aside.
 #pragma once
 
+#include <array>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
 #include "lightcal/fit/model/off_axis_pose.h"
+#include "lightcal/fit/model/parameter.h"
 #include "lightcal/records/session.h"
 
 namespace lightcal::fit {
@@ -47,6 +51,8 @@ struct Observation {
   std::optional<Vec3> normal;           // unit, where the reading gives one
   std::optional<OffAxisPose> off_axis;  // before a source with size and aim (off_axis.h), metres
   double emission = 1.0;                // E/I there over cos(tilt)/d^2
+  // Its direct light over that of the stated aim, by the aim's tilts (aim_error.h).
+  std::shared_ptr<const std::function<double(double, double)>> by_aim;
 };
 
 // What the card left that was subtracted, less the other light where that was taken off it.
@@ -71,6 +77,7 @@ struct Observations {
   std::vector<int> subtracted;  // indices of the shadow-card and lamp-off readings that were
   int readings = 0;             // rows of this light, good or bad
   int shadow_readings = 0;
+  std::array<ParameterRule, 2> aim{};  // its tilts; held: not sought
   bool by_camera = false;  // one camera's pictures, which share its scale, are all there is
   Warnings warnings;
 };

@@ -87,9 +87,21 @@ void RejectAtEdge(const LightDescription& light, Observations& observations) {
   std::ranges::sort(observations.rejected);
 }
 
-// Each angle is as far off as the axis that all count from, and on which side of the lamp the meter
-// went nobody says. The last two are one error of all such readings: no number of them brings the
-// interval under it.
+PartRound PartRoundAbout(const LightDescription& light, const std::optional<SourceModel>& source,
+                         double distance_m, double off_axis_rad) {
+  return MeanRound([&](double round_rad) {
+    if (!source) {
+      return light.distribution
+          ->At(Radians(round_rad), Radians(off_axis_rad), TableInterpolation::kCubic)
+          .value();
+    }
+    return LuxPerCandela(PoseAt(*source, distance_m, off_axis_rad, round_rad), 0.0);
+  });
+}
+
+// Each angle is as far off as the axis that all count from, which is sought or widens, and on
+// which side of the lamp the meter went nobody says: one error of all such readings, no number of
+// them brings the interval under it.
 void WidenByAngle(const LightDescription& light, const std::optional<SourceModel>& source,
                   Observations& observations) {
   const double sigma = AngleSigma(light).value();
@@ -99,19 +111,16 @@ void WidenByAngle(const LightDescription& light, const std::optional<SourceModel
   for (Observation& row : observations.rows) {
     if (!ByAngle(row)) continue;
     const auto part = [&](double off_axis_rad) {
-      const double off = std::abs(off_axis_rad);
-      return MeanRound([&](double round_rad) {
-        if (!source) return light.distribution->At(Radians(round_rad), Radians(off)).value();
-        return LuxPerCandela(PoseAt(*source, row.distance_m, off, round_rad), 0.0);
-      });
+      return PartRoundAbout(light, source, row.distance_m, std::abs(off_axis_rad));
     };
     const double angle = std::abs(row.off_axis_rad);
     const PartRound here = part(angle);
     if (!(here.mean > 0.0)) continue;
     const double steep = std::max(std::abs(part(angle + sigma).mean / here.mean - 1.0),
                                   std::abs(part(angle - sigma).mean / here.mean - 1.0));
+    const double axis = AxisIsSought(light) ? 0.0 : count;
     const double relative =
-        std::sqrt((1.0 + count) * steep * steep + count * here.sd_relative * here.sd_relative);
+        std::sqrt((1.0 + axis) * steep * steep + count * here.sd_relative * here.sd_relative);
     row.sigma_lx = std::hypot(row.sigma_lx, relative * row.measured_lx);
     decided += steep > kAngleDecides ? 1 : 0;
   }
@@ -139,6 +148,14 @@ std::optional<PlacedSource> PlacedSourceOf(const LightDescription& light) {
   if (!light.axis) return PlacedSource{*model, *light.position_m, SourceFrame::Facing(kDown)};
   const Vec3 z = SourceFrame::Facing(*light.axis).y;
   return PlacedSource{*model, *light.position_m, SourceFrame::Facing(z, *light.axis)};
+}
+
+double EmissionBefore(const PlacedSource& source, LightKind kind, const Observation& row) {
+  return EmissionIn(PoseOf(source, WayOf(kind), row), row);
+}
+
+double LightRoundAbout(const LightDescription& light, double distance_m, double off_axis_rad) {
+  return PartRoundAbout(light, AimedSourceOf(light), distance_m, off_axis_rad).mean;
 }
 
 void PoseBefore(const PlacedSource& source, LightKind kind, Observations& observations) {

@@ -20,6 +20,20 @@ namespace lightcal::fit {
 // outer_deg; and for kinds that shine evenly from a point.
 [[nodiscard]] std::optional<PlacedSource> PlacedSourceOf(const LightDescription& light);
 
+// E/I of a placed row before the source over that of a small one that shines alike all round.
+[[nodiscard]] double EmissionBefore(const PlacedSource& source, LightKind kind,
+                                    const Observation& row);
+// The mean round about its axis, so far off it, up to a constant: of a table, or of a disk, rect or
+// spot with outer_deg, which the meter faces.
+[[nodiscard]] double LightRoundAbout(const LightDescription& light, double distance_m,
+                                     double off_axis_rad);
+
+// Whether the axis that angles count from is sought: not of a cone, whose edge tells too little of
+// it.
+[[nodiscard]] inline bool AxisIsSought(const LightDescription& light) {
+  return light.kind != LightKind::kSpot;
+}
+
 // Gives every lit row that is placed its pose before a lamp whose place was found, and how strongly
 // it shines there.
 void PoseBefore(const PlacedSource& source, LightKind kind, Observations& observations);

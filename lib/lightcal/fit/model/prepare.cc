@@ -77,6 +77,7 @@ ReadingRow RowOf(const Observation& observation, std::size_t i, const ForwardMod
   row.shape = Scaled(model.shape, scales.length_m);
   const double surface = observation.measured_from_center ? 0.0 : model.surface_radius_m;
   row.distance = (observation.distance_m + surface) / scales.length_m;
+  row.by_aim = observation.by_aim;
   if (observation.off_axis) row.off_axis = Scaled(*observation.off_axis, scales.length_m);
   // A pose off the axis holds its normal; without one the tilt is all that is known.
   if (model.tilt && !(observation.off_axis && observation.normal)) {
@@ -219,6 +220,7 @@ Prepared Prepare(const Observations& observations, const ForwardModel& model) {
     rules[kDistanceOffset].prior_sd = kOffsetPriorRelative * out.shortest;
     rules[kDistanceOffset].free = out.distances >= 2;
   }
+  std::ranges::copy(observations.aim, rules.begin() + kAimX);
   out.estimation.least_distance_offset = kLeastOffset * out.shortest;
   if (out.ambient_told) {
     rules[kAmbient].free = true;

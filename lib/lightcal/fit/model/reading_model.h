@@ -2,8 +2,11 @@
 // One row of the least-squares problem and the law every cost shares.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <type_traits>
 
@@ -14,8 +17,8 @@ namespace lightcal::fit {
 
 // The parameters, in this order everywhere: natural logarithm of the axial intensity, the distance
 // offset, the ambient illuminance, of the walls' light (light/wall_prior.h) ln b and the slope, and
-// ln of the scale of one instrument among several. Units are those of the rows (the solver scales
-// lengths and illuminances); b stays in 1/m^2.
+// ln of the scale of one instrument among several, and the tilts of the aim (aim_error.h). Units
+// are those of the rows (the solver scales lengths and illuminances); b stays in 1/m^2.
 enum Parameter : std::uint8_t {
   kLnIntensity = 0,
   kDistanceOffset = 1,
@@ -23,9 +26,11 @@ enum Parameter : std::uint8_t {
   kLnWalls = 3,
   kWallsSlope = 4,
   kLnScale = 5,
+  kAimX = 6,
+  kAimY = 7,
 };
-inline constexpr int kParameters = 6;
-// All but the last, which one instrument does not have.
+inline constexpr int kParameters = 8;
+// Without those that one instrument and a lamp that shines evenly do not have.
 inline constexpr int kWithoutScale = 5;
 
 // How a reading m of a meter that should see E counts, over its sigma.
@@ -80,6 +85,7 @@ struct ReadingRow {
   double calibration = 0.0;  // 1 sigma, relative, of all rows of one instrument alike
   double scale = 0.0;        // how much of ln of the scale is in it: 0 of another instrument
   int instrument = 0;
+  std::shared_ptr<const std::function<double(double, double)>> by_aim;  // null: 1
   bool data_sheet = false;  // what the manufacturer prints
   bool picture = false;     // what a camera read
 };
@@ -109,6 +115,27 @@ template <class T>
   return exp(theta[kLnWalls] + theta[kWallsSlope] * row.walls->x + row.walls->constant);
 }
 
+// The direct light over that of the stated aim, by the aim's tilts, and its derivatives by
+// differences over a quarter of a degree: tables and cones have kinks.
+struct PartByAim {
+  double value = 1.0;
+  std::array<double, 2> slope{};
+  std::array<double, 3> bend{};  // xx, yy, xy
+};
+[[nodiscard]] inline PartByAim PartByAimAt(const ReadingRow& row, double x, double y) {
+  constexpr double kStep = 0.0044;
+  const auto& part = *row.by_aim;
+  const double at = part(x, y);
+  const double right = part(x + kStep, y), left = part(x - kStep, y);
+  const double up = part(x, y + kStep), down = part(x, y - kStep);
+  const double both = part(x + kStep, y + kStep) + part(x - kStep, y - kStep);
+  const double square = kStep * kStep;
+  return {at,
+          {(right - left) / (2.0 * kStep), (up - down) / (2.0 * kStep)},
+          {(right - 2.0 * at + left) / square, (up - 2.0 * at + down) / square,
+           (both - right - left - up - down + 2.0 * at) / (2.0 * square)}};
+}
+
 // What the instrument makes of all it sees: 1 where its scale is no parameter.
 template <class T>
 [[nodiscard]] T ScaleOfRow(const ReadingRow& row, const T* theta) {
@@ -122,6 +149,12 @@ template <class T>
 [[nodiscard]] T RowIlluminance(const ReadingRow& row, const T* theta) {
   using std::exp;
   T per_candela = LampPerCandela(row, theta[kDistanceOffset]);
+  if constexpr (std::is_same_v<T, double>) {
+    if (row.by_aim) {
+      per_candela =
+          row.bounce + (per_candela - row.bounce) * (*row.by_aim)(theta[kAimX], theta[kAimY]);
+    }
+  }
   if (row.walls) per_candela += WallsPerCandela(row, theta);
   const T seen = exp(theta[kLnIntensity]) * per_candela + row.ambient_gain * theta[kAmbient];
   return ScaleOfRow(row, theta) * seen;

@@ -49,6 +49,7 @@ std::optional<double> FacingOf(ReadingRow row, const Observation& o, const Theta
   constexpr double kAlike = 1e-9;
   const double turned = RowIlluminance(row, theta.data());
   row.off_axis.reset();
+  row.by_aim.reset();
   row.direct_gain = 1.0;
   const double facing = RowIlluminance(row, theta.data());
   return std::abs(facing - turned) > kAlike * facing ? std::optional(facing) : std::nullopt;
@@ -150,6 +151,7 @@ void NameLearned(const Estimation& estimation, const Covariance& covariance, boo
         .emplace_back("distance_offset");
   }
   (learned(kAmbient) ? diagnostics.learned : diagnostics.prior).emplace_back("ambient");
+  if (learned(kAimX) || learned(kAimY)) diagnostics.learned.emplace_back("aim");
   if (learned(kLnScale)) diagnostics.learned.emplace_back("instrument_scale");
   if (std::ranges::any_of(estimation.rows, &ReadingRow::data_sheet)) {
     diagnostics.prior.emplace_back("data_sheet");

@@ -26,7 +26,7 @@ struct RowProblem {
   }
 };
 
-// The estimation where no instrument's scale is free: most are, and quicker so.
+// The estimation where no instrument's scale and no aim is free: most are, and quicker so.
 struct OfOneScale {
   const Estimation& whole;
   std::array<ParameterRule, kWithoutScale> rules;
@@ -99,7 +99,9 @@ std::optional<ValuesOf<P>> SolveWithin(const P& problem, const ValuesOf<P>& star
 
 std::optional<Theta> SolveCoarsely(const Estimation& estimation, const Theta& start,
                                    double last_step) {
-  if (estimation.rules[kLnScale].free) return SolveWithin(estimation, start, last_step);
+  const auto& rules = estimation.rules;
+  if (rules[kLnScale].free || rules[kAimX].free || rules[kAimY].free)
+    return SolveWithin(estimation, start, last_step);
   const auto values = SolveWithin(Smaller(estimation), Smaller(start), last_step);
   return values ? std::optional(Whole(*values)) : std::nullopt;
 }
@@ -147,7 +149,14 @@ Result<Theta> SolveInFull(const Estimation& estimation, const Theta& start, Loss
 template <int N>
 bool RowResidual(const ReadingRow& row, const double* theta, double* residual, double* gradient,
                  double* bend) {
-  const AxialFalloff direct = DirectAt(row, theta[kDistanceOffset]);
+  AxialFalloff direct = DirectAt(row, theta[kDistanceOffset]);
+  const AxialFalloff stated = {direct.value - row.bounce, direct.slope, direct.bend};
+  PartByAim by_aim;
+  if constexpr (N > kAimY) {
+    if (row.by_aim) by_aim = PartByAimAt(row, theta[kAimX], theta[kAimY]);
+    direct = {row.bounce + stated.value * by_aim.value, stated.slope * by_aim.value,
+              stated.bend * by_aim.value};
+  }
   const double walls = WallsPerCandela(row, theta);
   double scale = 1.0;
   if constexpr (N > kLnScale) scale = ScaleOfRow(row, theta);
@@ -165,6 +174,11 @@ bool RowResidual(const ReadingRow& row, const double* theta, double* residual, d
   gradient[kLnWalls] = by_illuminance * intensity * walls;
   gradient[kWallsSlope] = row.walls ? gradient[kLnWalls] * row.walls->x : 0.0;
   if constexpr (N > kLnScale) gradient[kLnScale] = row.scale * by_illuminance * predicted;
+  if constexpr (N > kAimY) {
+    for (int i = 0; i < 2; ++i) {
+      gradient[kAimX + i] = by_illuminance * intensity * stated.value * by_aim.slope[i];
+    }
+  }
   if (bend == nullptr) return true;
   // Of ln E: -dE_i dE_j/E^2 + d2E_ij/E; of E the second alone, whose entries repeat the first ones.
   const Eigen::Map<const Eigen::Matrix<double, N, 1>> g(gradient);
@@ -179,6 +193,16 @@ bool RowResidual(const ReadingRow& row, const double* theta, double* residual, d
   second(kDistanceOffset, kLnIntensity) += g[kDistanceOffset];
   second(kDistanceOffset, kDistanceOffset) += by_illuminance * intensity * direct.bend;
   if constexpr (N > kLnScale) second.row(kLnScale) += row.scale * g.transpose();
+  if constexpr (N > kAimY) {
+    const double by_lamp = by_illuminance * intensity;
+    for (int i = 0; i < 2; ++i) {
+      second(kAimX + i, kLnIntensity) += g[kAimX + i];
+      second(kAimX + i, kDistanceOffset) += by_lamp * stated.slope * by_aim.slope[i];
+      second(kAimX + i, kLnScale) += row.scale * g[kAimX + i];
+      second(kAimX + i, kAimX + i) += by_lamp * stated.value * by_aim.bend[i];
+    }
+    second(kAimY, kAimX) += by_lamp * stated.value * by_aim.bend[2];
+  }
   if (!row.walls) return true;
   second(kLnWalls, kLnIntensity) += g[kLnWalls];
   second(kLnWalls, kLnWalls) += g[kLnWalls];
