@@ -38,6 +38,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"import.column", "--column"},
     {"import.columns", "--columns distance_m,illuminance_lx"},
     {"light.aim", "aim"},
+    {"light.axis", "axis"},
     {"light.beam", "beam_deg"},
     {"light.fixture", "fixture"},
     {"light.off_axis_sigma", "off_axis_sigma_deg"},

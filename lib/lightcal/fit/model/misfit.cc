@@ -137,7 +137,8 @@ std::optional<std::string> OneReading(const Estimation& all, const Prepared& pre
   return std::nullopt;
 }
 
-// Readings beside the axis of a beam that was taken for a lamp shining alike all round.
+// Readings beside the axis of a beam that was taken for a lamp shining alike all round, or of a
+// table's lamp that hangs otherwise than was said.
 std::optional<std::string> Beam(const std::vector<ReadAt>& places, const Prepared& prepared,
                                 const Observations& observations) {
   constexpr double kAside = 5.0 * kRadiansPerDegree;
@@ -153,9 +154,18 @@ std::optional<std::string> Beam(const std::vector<ReadAt>& places, const Prepare
     }
   }
   if (largest < kAside) return std::nullopt;
-  return "readings " + RoundedText(DegreesFromRadians(Radians(largest)), 2) +
-         " degrees apart as seen from the lamp fall faster than distance explains: it is a beam; "
-         "describe it as kind = \"spot\" with its aim";
+  const std::string apart = "readings " + RoundedText(DegreesFromRadians(Radians(largest)), 2) +
+                            " degrees apart as seen from the lamp ";
+  const bool by_table = std::ranges::any_of(
+      observations.rows, [](const Observation& row) { return row.table_part != 1.0; });
+  if (by_table) {
+    return apart +
+           "do not fall as its file says: does it aim elsewhere, is it turned about its aim "
+           "({light.axis}, where C0 points), or is the file another lamp's?";
+  }
+  return apart +
+         "fall faster than distance explains: it is a beam; describe it as kind = \"spot\" with "
+         "its aim";
 }
 
 std::string CauseOf(const std::vector<ReadAt>& places, bool at_bound, const Estimation& all,
