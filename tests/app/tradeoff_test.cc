@@ -168,6 +168,7 @@ TEST(TradeoffCommand, AFinePhotometricTableShowsWhatItsStepIsWorth) {
   toml << "lightcal = 1\n[room]\ndark = true\n[[light]]\nname = \"key\"\n"
        << "kind = \"photometric\"\n"
        << "distribution = \"lobe.ies\"\nposition_m = [0, 0, 3]\naim = [0, 0, -1]\n"
+       << "off_axis_sigma_deg = 0.02\n"  // the closed form knows the aim
        << "[[meter]]\nname = \"m\"\nsigma_relative = 0.02\n";
   for (const double gamma_deg : {0.0, 7.0, 13.0, 17.0}) {
     const double s = 2.0 * std::sin(gamma_deg * kRad), down = 2.0 * std::cos(gamma_deg * kRad);

@@ -46,7 +46,10 @@ void TellAim(const LightEstimate& estimate, const LightDescription& light, Fitte
     return;
   }
   if (!light.aim || !light.position_m) return;
-  out.aim = Tilt(light, estimate.theta[kAimX], estimate.theta[kAimY]).aim;
+  const TiltedAim found = Tilt(light, estimate.theta[kAimX], estimate.theta[kAimY]);
+  out.aim = found.aim;
+  // Where nobody said, it goes by the aim: straight down and nearly so are a quarter turn apart.
+  if (light.distribution || light.kind == LightKind::kRect) out.axis = found.c0;
   const double sd = std::max(SdOf(estimate.covariance, kAimX), SdOf(estimate.covariance, kAimY));
   out.aim_u95_deg = kZ95 * DegreesFromRadians(Radians(sd));
 }
