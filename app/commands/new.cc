@@ -108,6 +108,9 @@ Run BuildNew(CLI::App& parser) {
   parser.add_option("--lamp", flags.lamp, "What the lamp is called [asked; key]");
   parser.add_option("--kind", flags.kind,
                     "point spot sphere disk rect tube photometric directional [asked; point]");
+  parser.add_option("--fixture", flags.fixture,
+                    "bulb cob_bare reflector fresnel panel softbox luminaire: where its light "
+                    "starts [asked of a point or spot; not known]");
   parser.add_option("--diameter", flags.diameter, "Of a sphere or disk: 6cm [asked]");
   parser.add_option("--size", flags.size, "Of a rect: 120x60cm [asked]");
   parser.add_option("--length", flags.length, "Of a tube: 1.2m [asked]");

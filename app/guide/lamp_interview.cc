@@ -49,6 +49,26 @@ Result<LightKind> ParseKindChoice(const std::string& text) {
   return kKinds[*at].kind;
 }
 
+// By kFixtureNames.
+constexpr std::array<Choice, 7> kFixtures = {{
+    {"bulb", "read from its glass"},
+    {"cob_bare", "a chip on a board, without optics"},
+    {"reflector", "a chip in a reflector"},
+    {"fresnel", "behind a lens"},
+    {"panel", "a luminous surface"},
+    {"softbox", "or a lantern"},
+    {"luminaire", "mounted at a stated place, with its photometric file"},
+}};
+
+std::vector<Choice> FixtureChoices() { return {kFixtures.begin(), kFixtures.end()}; }
+
+Result<std::optional<Fixture>> ParseFixture(const std::string& text) {
+  if (text.empty()) return std::optional<Fixture>();
+  const auto at = ParseChoice(text, FixtureChoices());
+  if (!at) return tl::unexpected(at.error());
+  return std::optional(static_cast<Fixture>(*at));
+}
+
 Result<std::string> ParseDirectory(const std::string& text) {
   if (text.empty()) return WrongUsage("", "a folder needs a name");
   return text;
@@ -152,10 +172,10 @@ class Interview {
 
   Result<NewSession> Run() {
     using Step = Result<void> (Interview::*)();
-    constexpr std::array<Step, 8> kSteps = {&Interview::AskDirectory, &Interview::AskLamp,
-                                            &Interview::AskSize,      &Interview::AskBox,
-                                            &Interview::AskMeter,     &Interview::AskAccuracy,
-                                            &Interview::AskTargets,   &Interview::AskRoom};
+    constexpr std::array<Step, 9> kSteps = {
+        &Interview::AskDirectory, &Interview::AskLamp,    &Interview::AskFixture,
+        &Interview::AskSize,      &Interview::AskBox,     &Interview::AskMeter,
+        &Interview::AskAccuracy,  &Interview::AskTargets, &Interview::AskRoom};
     for (const Step step : kSteps) {
       if (auto done = (this->*step)(); !done) return Propagate(std::move(done));
     }
@@ -187,6 +207,18 @@ class Interview {
         light.kind,
         {"--kind", "What is it? A number or a word:", "point", MenuText(KindChoices()), true},
         flags_.kind, ParseKindChoice);
+  }
+
+  // What tells where the light of a lamp starts whose kind does not.
+  Result<void> AskFixture() {
+    LightDescription& light = session_.light;
+    const bool open = light.kind == LightKind::kPoint || light.kind == LightKind::kSpot;
+    if (!open && !flags_.fixture) return {};
+    return Take(
+        light.fixture,
+        {"--fixture", "How is it built? That tells where its light starts (Enter: not known):", "",
+         MenuText(FixtureChoices())},
+        flags_.fixture, ParseFixture);
   }
 
   // The sizes that this kind has; a flag of another kind is a mistake.

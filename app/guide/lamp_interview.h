@@ -13,8 +13,8 @@ namespace lightcal::app {
 
 // What flags answered, as typed.
 struct LampFlags {
-  std::optional<std::string> directory, lamp, kind, diameter, size, length, radius, distribution,
-      box, meter, accuracy, targets, room, reflectance;
+  std::optional<std::string> directory, lamp, kind, fixture, diameter, size, length, radius,
+      distribution, box, meter, accuracy, targets, room, reflectance;
 };
 
 // Asks what no flag says.  Wrong usage: a flag that cannot be read, or a size the kind has not.

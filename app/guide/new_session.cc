@@ -61,6 +61,13 @@ std::string LightText(const LightDescription& light) {
   std::string text = "[[light]]\n" + TomlLine("name", TomlText(light.name), "readings name it so") +
                      TomlLine("kind", TomlText(std::string(LightKindName(light.kind))),
                               "directional point spot sphere disk rect tube photometric dome");
+  text +=
+      light.fixture
+          ? TomlLine("fixture",
+                     TomlText(std::string(kFixtureNames[static_cast<std::size_t>(*light.fixture)])),
+                     "how it is built: where its light starts")
+          : TomlLine("# fixture", "\"bulb\"",
+                     "cob_bare reflector fresnel panel softbox luminaire: where its light starts");
   text += TomlLine("# lamp_class", "\"white_led\"", "or tungsten: a filament follows the mains") +
           TomlLine("# minutes_on", "30", "before the first reading: what warming up leaves");
   text += LineIf("diameter_m", light.diameter, "");

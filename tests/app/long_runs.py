@@ -89,7 +89,10 @@ def a_terminal_is_told_how_far(words, what, within_s=30.0):
     said, end = b"", time.monotonic() + within_s
     while b"%" not in said and time.monotonic() < end:
         if select.select([parent], [], [], 0.1)[0]:
-            said += os.read(parent, 4096)
+            try:
+                said += os.read(parent, 4096)
+            except OSError:  # it ended
+                break
     run.kill()
     run.wait()
     os.close(parent)

@@ -153,6 +153,31 @@ TEST(NewSession, ASessionIsReplacedOnlyByForceAndItsReadingsStay) {
   EXPECT_TRUE(fs::exists(session + "/readings.jsonl"));
 }
 
+TEST(NewSession, HowTheLampIsBuiltIsWritten) {
+  const TempDir home;
+  const std::string session = home.path() + "/s";
+  const CliResult made =
+      RunLightcal({"new", session, "--yes", "--kind", "point", "--fixture", "fresnel"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(ReadFile(session + "/session.toml"), HasSubstr("\nfixture = \"fresnel\""));
+  const CliResult wrong =
+      RunLightcal({"new", session + "2", "--yes", "--kind", "point", "--fixture", "fresnle"});
+  EXPECT_EQ(wrong.exit_code, 2) << wrong.err;
+  EXPECT_THAT(wrong.err, HasSubstr("fresnel"));
+}
+
+TEST(NewSession, ThePlanExpectsWhatTheBoxSays) {
+  const TempDir home;
+  const std::string session = home.path() + "/s";
+  ASSERT_EQ(
+      RunLightcal({"new", session, "--yes", "--kind", "point", "--box", "9W 806lm"}).exit_code, 0);
+  const json step =
+      json::parse(RunLightcal({"plan", session, "--json"}).out)["lights"][0]["steps"][0];
+  const double distance = step["distance_m"];
+  // 806 lm over 4 pi sr.
+  EXPECT_NEAR(double(step["expected_lx"]) * distance * distance, 64.1, 15.0) << step;
+}
+
 TEST(NewSession, TheEndOfInputWritesNothing) {
   const NoUsb machine;
   for (const char key : {'\x03', '\x04'}) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lightcal/fit/fit_light.h"
+#include "lightcal/fit/model/data_sheet.h"
 #include "lightcal/fit/model/off_axis.h"
 #include "lightcal/fit/plan/reading_candidates.h"
 #include "lightcal/fit/predicted_parts.h"
@@ -13,7 +14,13 @@
 namespace lightcal::fit {
 namespace {
 
-constexpr double kNominalCandela = 1000.0;
+// Before anything is read: what its box says, or a film lamp's.
+double NominalCandela(const LightDescription& light) {
+  constexpr double kAny = 1000.0;
+  if (!HasDataSheet(light)) return kAny;
+  const auto sheet = IntensityFromDataSheet(light);
+  return sheet ? sheet->value : kAny;
+}
 
 double AmbientOf(const FittedLight* now) {
   return now != nullptr && now->ambient_lx ? std::max(0.0, now->ambient_lx->value) : 0.0;
@@ -92,7 +99,8 @@ Lux ExpectedIlluminance(const Session& session, const FittedLight* now,
     return Lux(ambient + BehindCard(session, now, planned));
   }
   const bool has_intensity = now != nullptr && now->intensity_cd;
-  const double candela = has_intensity ? now->intensity_cd->value : kNominalCandela;
+  const double candela =
+      has_intensity ? now->intensity_cd->value : NominalCandela(session.lights.front());
   if (now != nullptr && now->illuminance_lx) return Lux(now->illuminance_lx->value + ambient);
   if (planned.distance && now != nullptr && now->distribution && !OfStatedBeam(*now)) {
     const double d =
