@@ -62,3 +62,22 @@ narrow, told = session_of(BLACK, WHOLE)
 assert not told and narrow < 41 < wide, (narrow, wide)
 even, told = session_of(LED, every(5))
 assert not told and even < 90, "light without lines, which any meter of 5 nm reads well"
+
+
+def state_u95(times):
+    """Of the CCT at half, which is read so many times with one spectrum."""
+    rows = [(100, 500)] + [(50, 250)] * times
+    (HOME / "session.toml").write_text(
+        'lightcal = 1\nname = "t"\n[room]\ndark = true\n[[light]]\nname = "key"\nkind = "point"\n'
+        'lamp_class = "white_led"\nminutes_on = 60\n' + "".join(
+            f'[[reading]]\nlight = "key"\ndistance_m = 1\nilluminance_lx = {lux}\nspectrum = "lamp.csv"\n'
+            f"state = {{ dimmer = {dimmer} }}\n" for dimmer, lux in rows))
+    [half] = [s for s in answer("fit", HOME)["lights"][0]["states"] if s["state"]["dimmer"] == 50]
+    return half["color"]["cct_K"]["u95"]
+
+
+# Sampling errs alike in all readings of a state: it counts once.
+write("lamp.csv", LINES, every(5))
+once, often = state_u95(1), state_u95(4)
+print("a state's CCT, read once and four times:", once, often)
+assert often <= 1.001 * once, (once, often)

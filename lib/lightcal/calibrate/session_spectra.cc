@@ -98,8 +98,8 @@ void TakeSpectra(const std::vector<NamedSpectrum>& spectra, FittedLight& light) 
     }
     for (MeasuredState& state : light.states) {
       if (!SameState(one.state, state.state)) continue;
+      if (!state.spectrum) WidenBy(one.doubt, state.color);
       state.spectrum = thinned(one.spectrum);
-      WidenBy(one.doubt, state.color);
     }
   }
   fit::FindEmitters(light);
