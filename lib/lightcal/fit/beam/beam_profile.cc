@@ -162,7 +162,7 @@ Drawn DrawFrom(const SolvedBeam& beam, const std::vector<double>& gamma_deg, int
   return out;
 }
 
-Uncertain IntervalOf(const std::vector<BeamDraw>& draws, double BeamDraw::* what) {
+Uncertain IntervalAbout(double value, const std::vector<BeamDraw>& draws, double BeamDraw::* what) {
   std::vector<double> values;
   values.reserve(draws.size());
   for (const BeamDraw& draw : draws) values.push_back(draw.*what);
@@ -175,7 +175,7 @@ Uncertain IntervalOf(const std::vector<BeamDraw>& draws, double BeamDraw::* what
   };
   const double low = at(0.025);
   const double high = at(0.975);
-  return {at(0.5), 0.5 * (high - low), low, high};
+  return {std::clamp(value, low, high), 0.5 * (high - low), low, high};
 }
 
 template <class Of>
@@ -296,14 +296,12 @@ Result<BeamProfile> FitBeamProfile(const BeamReadings& readings, const std::stri
   const double scale = middle / out.candela.front();
   for (double& value : out.candela) value *= scale;
   // Figures of the curve that is written beside them, not medians of their own: one light.
-  const auto of_curve = [&](double BeamDraw::* what, double value) {
-    Uncertain interval = IntervalOf(draws, what);
-    interval.value = std::clamp(value, *interval.low, *interval.high);
-    return interval;
-  };
-  out.flux_lm = of_curve(&BeamDraw::flux_lm, FluxThrough(out.gamma_deg).Of(out.candela));
-  out.beam_deg = of_curve(&BeamDraw::beam_deg, WidthAt(out.gamma_deg, out.candela, 0.5));
-  out.field_deg = of_curve(&BeamDraw::field_deg, WidthAt(out.gamma_deg, out.candela, 0.1));
+  const double flux_lm = FluxThrough(out.gamma_deg).Of(out.candela);
+  out.flux_lm = IntervalAbout(flux_lm, draws, &BeamDraw::flux_lm);
+  out.beam_deg =
+      IntervalAbout(WidthAt(out.gamma_deg, out.candela, 0.5), draws, &BeamDraw::beam_deg);
+  out.field_deg =
+      IntervalAbout(WidthAt(out.gamma_deg, out.candela, 0.1), draws, &BeamDraw::field_deg);
 
   out.whole = MomentsOf(beams);
   out.whole.theta[0] = std::log(middle);

@@ -277,9 +277,10 @@ Result<void> WidenOffset(std::vector<Candidate>& candidates, const Prepared& pre
     SortByProbability(widened);
   }
   candidates = std::move(widened);
-  if (!candidates.front().estimate.rejected.empty()) return {};  // WarnOfRows says why
   std::string without;
   if (odd) {
+    const std::vector<int>& rejected = candidates.front().estimate.rejected;
+    if (std::ranges::find(rejected, *odd) != rejected.end()) return {};  // WarnOfRows says why
     const auto own = static_cast<std::size_t>(prepared.observation[static_cast<std::size_t>(*odd)]);
     without = "; without " + NameOfReading(observations.rows[own]) +
               " they do not, so look at its digits";
