@@ -49,7 +49,9 @@ Node CauseNode(const RenderCause& cause) {
           {"turn_deg", cause.turn_deg}};
 }
 
-Node LampNode(const LampFactor& lamp) { return {{"name", lamp.name}, {"factor", lamp.factor}}; }
+Node RenderedLampNode(const RenderedLamp& lamp) {
+  return {{"name", lamp.name}, {"factor", lamp.factor}};
+}
 
 void PrintVerdict(const CheckedRig& rig, const RenderVerdict& verdict, Console& console) {
   std::vector<std::vector<std::string>> rows;
@@ -149,11 +151,12 @@ void SayTogether(const std::vector<SeenPicture>& pictures, Console& console) {
   for (const RenderCause& other : others) {
     console.Print("or " + other.code + ": " + other.message + "\n");
   }
-  console.PrintDocument({{"cause", CauseNode(causes.front())},
-                         {"alternatives", Node::List(others, CauseNode)},
-                         {"lamps", Node::UnlessEmpty(Node::List(LampFactors(seen), LampNode))},
-                         {"not_seen", Node::UnlessEmpty(Node::List(LampsNotSeen(seen)))},
-                         {"pictures", std::move(list)}});
+  console.PrintDocument(
+      {{"cause", CauseNode(causes.front())},
+       {"alternatives", Node::List(others, CauseNode)},
+       {"lamps", Node::UnlessEmpty(Node::List(RenderedLamps(seen), RenderedLampNode))},
+       {"not_seen", Node::UnlessEmpty(Node::List(LampsNotSeen(seen)))},
+       {"pictures", std::move(list)}});
 }
 
 Result<void> CheckRender(const CheckOptions& options, Console& console) {

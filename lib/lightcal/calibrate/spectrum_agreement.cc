@@ -12,6 +12,7 @@
 #include "lightcal/colorimetry/cct.h"
 #include "lightcal/colorimetry/irradiance_units.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/units_text.h"
 
 namespace lightcal {
 namespace {
@@ -23,7 +24,7 @@ struct TypedUnit {
   std::string_view name;
   double lx;
 };
-constexpr std::array kTypedUnits = {TypedUnit{"footcandles", 10.7639},
+constexpr std::array kTypedUnits = {TypedUnit{"footcandles", kLuxPerFootcandle},
                                     TypedUnit{"thousands of lx", 1000.0}};
 
 void SayOnce(Warning warning, const std::string& remedy, Warnings& warnings) {

@@ -128,8 +128,8 @@ void NameLampsNotSeen(std::span<const SeenRig> seen, RenderCause& cause) {
                    ") and give its picture, too";
 }
 
-std::vector<LampFactor> LampFactors(std::span<const SeenRig> seen) {
-  std::vector<LampFactor> factors;
+std::vector<RenderedLamp> RenderedLamps(std::span<const SeenRig> seen) {
+  std::vector<RenderedLamp> factors;
   for (const ToldLamp& one : ToldLamps(seen)) factors.push_back({one.name(), one.factor});
   return factors;
 }

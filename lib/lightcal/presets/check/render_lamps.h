@@ -19,7 +19,7 @@ void NameLampsNotSeen(std::span<const SeenRig> seen, RenderCause& cause);
 
 // By what factor a lamp is brighter than it was measured, from the picture whose cards it gives
 // most of their light.
-struct LampFactor {
+struct RenderedLamp {
   std::string name;
   double factor = 1.0;
 };
@@ -27,7 +27,7 @@ struct LampFactor {
 //   E_p = sum_k f_k E_pk,
 // the others taken as measured. Empty where no lamp does, or where such factors leave a picture
 // more than 3 % off: then it is no lamp's intensity that is wrong.
-[[nodiscard]] std::vector<LampFactor> LampFactors(std::span<const SeenRig> seen);
+[[nodiscard]] std::vector<RenderedLamp> RenderedLamps(std::span<const SeenRig> seen);
 
 // The cause that those factors have. Empty where there are none.
 [[nodiscard]] std::vector<RenderCause> JudgeLamps(std::span<const SeenRig> seen);
