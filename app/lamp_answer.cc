@@ -61,7 +61,7 @@ std::string LabelOf(const LampQuestion& question, const FittedLight& light) {
   const LightDescription* described = FindLight(*question.session, light.name);
   std::string word(LightKindName(light.kind));
   if (described != nullptr && described->fixture) {
-    word = kFixtureNames[static_cast<std::size_t>(*described->fixture)];
+    word = FixtureName(*described->fixture);
   } else if (light.kind == LightKind::kPoint) {
     word = "lamp";
   }

@@ -49,18 +49,33 @@ Result<LightKind> ParseKindChoice(const std::string& text) {
   return kKinds[*at].kind;
 }
 
-// By kFixtureNames.
-constexpr std::array<Choice, 7> kFixtures = {{
-    {"bulb", "read from its glass"},
-    {"cob_bare", "a chip on a board, without optics"},
-    {"reflector", "a chip in a reflector"},
-    {"fresnel", "behind a lens"},
-    {"panel", "a luminous surface"},
-    {"softbox", "or a lantern"},
-    {"luminaire", "mounted at a stated place, with its photometric file"},
-}};
+constexpr std::string_view WordsOf(Fixture fixture) {
+  switch (fixture) {
+    case Fixture::kBulb:
+      return "read from its glass";
+    case Fixture::kCobBare:
+      return "a chip on a board, without optics";
+    case Fixture::kReflector:
+      return "a chip in a reflector";
+    case Fixture::kFresnel:
+      return "behind a lens";
+    case Fixture::kPanel:
+      return "a luminous surface";
+    case Fixture::kSoftbox:
+      return "or a lantern";
+    case Fixture::kLuminaire:
+      return "mounted at a stated place, with its photometric file";
+  }
+  return {};
+}
 
-std::vector<Choice> FixtureChoices() { return {kFixtures.begin(), kFixtures.end()}; }
+std::vector<Choice> FixtureChoices() {
+  std::vector<Choice> choices;
+  for (std::size_t i = 0; i < kFixtureNames.size(); ++i) {
+    choices.push_back({kFixtureNames[i], WordsOf(static_cast<Fixture>(i))});
+  }
+  return choices;
+}
 
 Result<std::optional<Fixture>> ParseFixture(const std::string& text) {
   if (text.empty()) return std::optional<Fixture>();

@@ -63,8 +63,7 @@ std::string LightText(const LightDescription& light) {
                               "directional point spot sphere disk rect tube photometric dome");
   text +=
       light.fixture
-          ? TomlLine("fixture",
-                     TomlText(std::string(kFixtureNames[static_cast<std::size_t>(*light.fixture)])),
+          ? TomlLine("fixture", TomlText(std::string(FixtureName(*light.fixture))),
                      "how it is built: where its light starts")
           : TomlLine("# fixture", "\"bulb\"",
                      "cob_bare reflector fresnel panel softbox luminaire: where its light starts");

@@ -109,10 +109,7 @@ Result<LightDescription> DescribeLight(const QuickOptions& options) {
   if (!known)
     return WrongUsage(kind, "unknown --kind; point, spot, sphere, disk, rect, tube or directional");
   light.kind = *known;
-  const auto fixture = std::ranges::find(kFixtureNames, options.fixture);
-  if (fixture != kFixtureNames.end()) {
-    light.fixture = static_cast<Fixture>(fixture - kFixtureNames.begin());
-  }
+  light.fixture = FixtureFromName(options.fixture);
   std::optional<Radians> inner = std::nullopt;
   std::optional<Radians> outer = std::nullopt;
   for (const Result<void>& filled :

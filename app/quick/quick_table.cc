@@ -207,8 +207,7 @@ struct TableLamp {
 };
 
 Result<void> AnswerRow(const QuickOptions& options, TableLamp& lamp) {
-  if (!options.fixture.empty() &&
-      std::ranges::find(kFixtureNames, options.fixture) == kFixtureNames.end()) {
+  if (!options.fixture.empty() && !FixtureFromName(options.fixture)) {
     return Refused("bad_table", lamp.where,
                    "no fixture is called \"" + options.fixture +
                        "\"; there are bulb, cob_bare, "

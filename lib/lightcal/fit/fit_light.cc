@@ -148,7 +148,7 @@ void WarnOfOneSidedPoint(const LightDescription& light, const FittedLight& fitte
   const bool beam = light.fixture == Fixture::kReflector || light.fixture == Fixture::kFresnel;
   warnings.push_back(
       {"one_sided_point", light.name,
-       "a " + std::string(kFixtureNames[static_cast<std::size_t>(*light.fixture)]) +
+       "a " + std::string(FixtureName(*light.fixture)) +
            " shines one way and is taken as a point, which shines all round: right the way it was "
            "read, and nowhere else; " +
            (beam ? "give its beam angle ({light.beam}), or read it off its axis too"

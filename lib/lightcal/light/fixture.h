@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -22,6 +23,16 @@ enum class Fixture : std::uint8_t {
 
 inline constexpr std::array<std::string_view, 7> kFixtureNames = {
     "bulb", "cob_bare", "reflector", "fresnel", "panel", "softbox", "luminaire"};
+
+[[nodiscard]] constexpr std::string_view FixtureName(Fixture fixture) {
+  return kFixtureNames[static_cast<std::size_t>(fixture)];
+}
+[[nodiscard]] constexpr std::optional<Fixture> FixtureFromName(std::string_view name) {
+  for (std::size_t i = 0; i < kFixtureNames.size(); ++i) {
+    if (kFixtureNames[i] == name) return static_cast<Fixture>(i);
+  }
+  return std::nullopt;
+}
 
 // Whether such a lamp lights one side of itself alone.
 [[nodiscard]] constexpr bool ShinesOneWay(Fixture fixture) {

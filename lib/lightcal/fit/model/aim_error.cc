@@ -19,15 +19,13 @@ constexpr double kAimCounts = 0.005;
 // No light is less than this part of what the stated aim gives: its logarithm has to end.
 constexpr double kLeastPart = 1e-4;
 
-using Light = std::function<double(double x, double y)>;
-
 bool HasAim(const LightDescription& light) {
   return light.distribution || light.kind == LightKind::kDisk || light.kind == LightKind::kRect ||
          (light.kind == LightKind::kSpot && light.outer);
 }
 
 // By its place, the lamp's aim stated.
-std::optional<Light> LightByPlace(const LightDescription& light, const Observation& row) {
+std::optional<LightByTilt> LightByPlace(const LightDescription& light, const Observation& row) {
   if (!light.aim || !light.position_m || !row.position_m || !row.measured_from_center) {
     return std::nullopt;
   }
@@ -51,7 +49,7 @@ std::optional<Light> LightByPlace(const LightDescription& light, const Observati
 }
 
 // All angles are in one plane, in which x tilts.
-Light LightByAngle(const LightDescription& light, const Observation& row) {
+LightByTilt LightByAngle(const LightDescription& light, const Observation& row) {
   return [light, distance = row.distance_m, off = row.off_axis_rad](double x, double y) {
     return LightRoundAbout(light, distance, std::hypot(off + x, y));
   };
@@ -75,7 +73,7 @@ void LetAimMove(const LightDescription& light, Observations& observations) {
   bool counts = false, in_space = false;
   for (Observation& row : observations.rows) {
     if (!row.lit) continue;
-    std::optional<Light> shines = LightByPlace(light, row);
+    std::optional<LightByTilt> shines = LightByPlace(light, row);
     in_space = in_space || shines;
     if (!shines && by_angles && AxisIsSought(light)) shines = LightByAngle(light, row);
     if (!shines) continue;
@@ -88,7 +86,7 @@ void LetAimMove(const LightDescription& light, Observations& observations) {
       counts = counts || std::abs(part(tilt, 0.0) - 1.0) > kAimCounts ||
                std::abs(part(0.0, tilt) - 1.0) > kAimCounts;
     }
-    row.by_aim = std::make_shared<const Light>(part);
+    row.by_aim = std::make_shared<const LightByTilt>(part);
   }
   if (counts) {
     // Across the plane of the angles its square counts, which has mean and sd of N(0, sd)'s.

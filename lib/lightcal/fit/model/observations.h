@@ -4,13 +4,13 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "lightcal/core/result.h"
+#include "lightcal/fit/model/light_by_tilt.h"
 #include "lightcal/fit/model/off_axis_pose.h"
 #include "lightcal/fit/model/parameter.h"
 #include "lightcal/records/session.h"
@@ -51,8 +51,7 @@ struct Observation {
   std::optional<Vec3> normal;           // unit, where the reading gives one
   std::optional<OffAxisPose> off_axis;  // before a source with size and aim (off_axis.h), metres
   double emission = 1.0;                // E/I there over cos(tilt)/d^2
-  // Its direct light over that of the stated aim, by the aim's tilts (aim_error.h).
-  std::shared_ptr<const std::function<double(double, double)>> by_aim;
+  std::shared_ptr<const LightByTilt> by_aim;  // null: 1
 };
 
 // What the card left that was subtracted, less the other light where that was taken off it.

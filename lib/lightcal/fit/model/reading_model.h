@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <type_traits>
 
+#include "lightcal/fit/model/light_by_tilt.h"
 #include "lightcal/fit/model/off_axis_pose.h"
 #include "lightcal/light/axial_shape.h"
 
@@ -85,9 +85,9 @@ struct ReadingRow {
   double calibration = 0.0;  // 1 sigma, relative, of all rows of one instrument alike
   double scale = 0.0;        // how much of ln of the scale is in it: 0 of another instrument
   int instrument = 0;
-  std::shared_ptr<const std::function<double(double, double)>> by_aim;  // null: 1
-  bool data_sheet = false;  // what the manufacturer prints
-  bool picture = false;     // what a camera read
+  std::shared_ptr<const LightByTilt> by_aim;  // null: 1
+  bool data_sheet = false;                    // what the manufacturer prints
+  bool picture = false;                       // what a camera read
 };
 
 // Illuminance per candela: cos(tilt) g(r)/r^2 + bounce, r = d + d0, g the axial shape factor; off
