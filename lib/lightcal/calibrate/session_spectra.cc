@@ -97,8 +97,8 @@ void TakeSpectra(const std::vector<NamedSpectrum>& spectra, FittedLight& light) 
       WidenBy(one.doubt, light.color);
     }
     for (MeasuredState& state : light.states) {
-      if (!SameState(one.state, state.state)) continue;
-      if (!state.spectrum) WidenBy(one.doubt, state.color);
+      if (state.spectrum || !SameState(one.state, state.state)) continue;
+      WidenBy(one.doubt, state.color);
       state.spectrum = thinned(one.spectrum);
     }
   }

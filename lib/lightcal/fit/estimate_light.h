@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lightcal/core/result.h"
@@ -45,6 +46,7 @@ struct ForwardModel {
   bool judge_misfit = true;                // false: the rows follow a shape that was found in them
   std::optional<Vec3> gradient_sd;         // of a lamp whose place is sought (uneven_light.h)
   std::vector<double> uneven;              // of one whose place is known, beside the observations
+  std::string_view uneven_part = "uneven_light";  // of the interval, by that name
   EstimatorChoice choice{};
 };
 

@@ -317,6 +317,63 @@ Candela IntensityTable::At(Radians c, Radians gamma, TableInterpolation way) con
   return Towards(DirectionOf(GoniometerType::kC, c.value(), gamma.value()), way);
 }
 
+double IntensityTable::BendAt(std::size_t plane, std::size_t theta) const {
+  double before = theta > 0 ? Node(plane, theta - 1) : 0.0;
+  double step_before = theta > 0 ? theta_[theta] - theta_[theta - 1] : 0.0;
+  if (theta + 1 == theta_.size()) return 0.0;
+  if (theta == 0) {
+    const auto beyond =
+        theta_.front() <= kSameAngleRad ? Opposite(azimuth_[plane], 1) : std::nullopt;
+    if (!beyond) return 0.0;
+    before = *beyond;
+    step_before = theta_[1] - theta_[0];
+  }
+  const double step = theta_[theta + 1] - theta_[theta];
+  const double here = Node(plane, theta);
+  const double turn = (Node(plane, theta + 1) - here) / step - (here - before) / step_before;
+  return std::abs(2.0 * turn / (step + step_before));
+}
+
+double IntensityTable::ErrorAtPole(double azimuth, double theta) const {
+  if (MirrorsTheta(grid_.type, symmetry_)) theta = std::min(theta, std::numbers::pi - theta);
+  const Found node = Locate(theta_, theta);
+  const Found plane = Locate(azimuth_, Folded(azimuth));
+  if (!node.inside || !plane.inside) return 0.0;
+  const bool between = plane.part > 0.0;
+  double bend = 0.0;
+  for (std::size_t p = plane.index; p <= plane.index + (between ? 1 : 0); ++p) {
+    const std::size_t first = node.index == 0 ? 0 : node.index - 1;
+    const std::size_t last = std::min(node.index + 2, theta_.size() - 1);
+    for (std::size_t t = first; t <= last; ++t) bend = std::max(bend, BendAt(p, t));
+  }
+  const double step = theta_[node.index + 1] - theta_[node.index];
+  const double along = 4.0 * node.part * (1.0 - node.part) * bend * step * step / 8.0;
+  if (!between) return along;
+  const double low = azimuth_[plane.index], high = azimuth_[plane.index + 1];
+  const auto second = [&](double middle) {
+    const auto at = [&](double a) { return AtPole(a, theta, TableInterpolation::kLinear); };
+    return std::abs(at(middle - (high - low)) - 2.0 * at(middle) + at(middle + (high - low)));
+  };
+  const double across = std::max(second(low), second(high)) / 8.0;
+  return along + 4.0 * plane.part * (1.0 - plane.part) * across;
+}
+
+Candela IntensityTable::InterpolationErrorTowards(const Vec3& direction) const {
+  const AboutPole place = PoleAngles(grid_.type, direction);
+  return Candela(ErrorAtPole(place.azimuth, place.theta));
+}
+
+Candela IntensityTable::InterpolationErrorAt(Radians c, Radians gamma) const {
+  if (grid_.type == GoniometerType::kC) return Candela(ErrorAtPole(c.value(), gamma.value()));
+  return InterpolationErrorTowards(DirectionOf(GoniometerType::kC, c.value(), gamma.value()));
+}
+
+Radians IntensityTable::LargestStep() const {
+  double step = 0.0;
+  for (std::size_t i = 1; i < theta_.size(); ++i) step = std::max(step, theta_[i] - theta_[i - 1]);
+  return Radians(step);
+}
+
 Lumens IntensityTable::Flux(TableInterpolation way) const {
   double sum = 0.0;
   for (std::size_t p = 0; p < azimuth_.size(); ++p) {

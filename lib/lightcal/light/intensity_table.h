@@ -73,6 +73,17 @@ class IntensityTable {
   [[nodiscard]] Candela At(Radians c, Radians gamma,
                            TableInterpolation way = TableInterpolation::kLinear) const;
 
+  // How far the linear interpolant may lie from a smooth lobe through the same nodes, towards a
+  // direction: along a plane, and likewise from plane to plane,
+  //   4 t (1 - t) max|f''| h^2/8   of the four nodes around, step h, t its part; 0 at a node.
+  // Every second node of four luminaires' files (sample_data/photometric): 95 to 99.8 % of the
+  // nodes between lie within 2.2 times it; what linear and cubic differ by, 2.2 times, holds 75 %
+  // of those whose nodes are then 10 degrees apart.
+  [[nodiscard]] Candela InterpolationErrorTowards(const Vec3& direction) const;
+  [[nodiscard]] Candela InterpolationErrorAt(Radians c, Radians gamma) const;
+  // The largest step between two nodes of a plane.
+  [[nodiscard]] Radians LargestStep() const;
+
   // The integral of the interpolant over the sphere, to rounding:
   //   Phi = sum of planes w_j int I_j(theta) sin(theta) dtheta,
   // theta from the pole of the type's planes, w_j half the angle to both neighbouring planes.
@@ -99,6 +110,9 @@ class IntensityTable {
                                   TableInterpolation way) const;
   [[nodiscard]] double Folded(double azimuth) const;
   [[nodiscard]] double AtPole(double azimuth, double theta, TableInterpolation way) const;
+  // |d2 I/d theta2| at a node by its neighbours along the plane; 0 at the plane's ends.
+  [[nodiscard]] double BendAt(std::size_t plane, std::size_t theta) const;
+  [[nodiscard]] double ErrorAtPole(double azimuth, double theta) const;
   [[nodiscard]] double Node(std::size_t plane, std::size_t theta) const {
     return values_[plane * theta_.size() + theta];
   }

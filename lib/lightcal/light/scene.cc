@@ -5,28 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lightcal/light/intensity_table.h"
-
 namespace lightcal {
-
-SceneTable SceneTableOf(const IntensityTable& table) {
-  const IntensityGrid& grid = table.grid();
-  const std::size_t nodes = grid.vertical_deg.size();
-  SceneTable out;
-  for (std::size_t i = 1; i < nodes; ++i) {
-    const double step = grid.vertical_deg[i] - grid.vertical_deg[i - 1];
-    out.step_rad = std::max(out.step_rad, RadiansFromDegrees(step).value());
-  }
-  for (std::size_t plane = 0; plane < grid.horizontal_deg.size(); ++plane) {
-    const double* candela = grid.candela.data() + plane * nodes;
-    for (std::size_t i = 1; i + 1 < nodes; ++i) {
-      const double second = candela[i - 1] - 2.0 * candela[i] + candela[i + 1];
-      out.second_difference = std::max(out.second_difference, std::abs(second));
-    }
-  }
-  out.second_difference /= table.peak().intensity.value();
-  return out;
-}
 
 double NearestDistance(const Scene& scene) {
   double nearest = std::numeric_limits<double>::max();

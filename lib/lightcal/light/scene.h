@@ -14,8 +14,6 @@
 
 namespace lightcal {
 
-class IntensityTable;
-
 // A grey box of a room. The origin lies on the floor under its middle, Z up.
 struct RoomBox {
   Vec3 size_m{};
@@ -52,6 +50,8 @@ struct ScenePose {
   // the plane square to it); 0 on the axis.
   double emission_rad = 0.0;
   bool of_luminance = false;  // from a picture of the lamp itself: nothing else shines in it
+  // Of a lamp with a table: how far it may lie from the lamp's own lobe there, relative.
+  double table_error = 0.0;
 };
 
 // The lamp in time, and how long one reading gathers its light.
@@ -76,13 +76,6 @@ struct ScenePicture {
   std::optional<double> off_middle_rad;   // of what was read, from the lens's axis
 };
 
-// A distribution as a table of directions.
-struct SceneTable {
-  double step_rad = 0.0;           // the largest between two nodes of a plane
-  double second_difference = 0.0;  // the largest along a plane, over the peak
-  double least_part = 1.0;         // intensity over the peak, where a reading saw least
-};
-
 struct Scene {
   LightKind kind = LightKind::kPoint;
   SourceSize size;
@@ -105,11 +98,8 @@ struct Scene {
   std::optional<Metres> head_radius;
   SceneTime time;
   std::optional<ScenePicture> picture;
-  std::optional<SceneTable> table;
+  std::optional<double> table_step_rad;  // of a table of directions: the largest along a plane
 };
-
-// The table's largest step and second difference along its planes, as its file has them.
-[[nodiscard]] SceneTable SceneTableOf(const IntensityTable& table);
 
 [[nodiscard]] double NearestDistance(const Scene& scene);
 [[nodiscard]] double FarthestDistance(const Scene& scene);

@@ -131,7 +131,7 @@ std::vector<VariancePart> VarianceParts(const UncertaintyInput& input) {
   const double calibration = std::clamp(readings - repeated, 0.0, first);
   if (calibration > 0.0) parts.push_back({"meter_calibration", calibration});
   const double uneven = std::clamp(repeated - even, 0.0, first - calibration);
-  if (uneven > 0.0) parts.push_back({"uneven_light", uneven});
+  if (uneven > 0.0) parts.push_back({std::string(estimation.uneven_part), uneven});
   parts.push_back({"readings", first - calibration - uneven});
   return parts;
 }

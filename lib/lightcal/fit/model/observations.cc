@@ -138,7 +138,9 @@ void StandMeter(const LightDescription& light, const Reading& reading,
   row.off_axis_rad = reading.off_axis.value();
   row.position_m = reading.position_m;
   if (reading.normal) row.normal = *reading.normal * (1.0 / Length(*reading.normal));
-  row.table_part = TablePartTowards(light, reading);
+  const TablePart table = TablePartTowards(light, reading);
+  row.table_part = table.of_peak;
+  row.table_error = table.error;
 }
 
 bool HasDistanceLaw(LightKind kind) {

@@ -46,6 +46,7 @@ struct Observation {
   bool sees_walls = true;     // false: a manufacturer's figure, or from the lamp's own luminance
   bool of_luminance = false;  // from a picture of the lamp itself, by the camera's scale
   double table_part = 1.0;    // of the peak intensity, towards the meter (photometric lamps)
+  double table_error = 0.0;   // of it, relative: IntensityTable::InterpolationErrorTowards
   bool measured_from_center = false;  // by positions, the lamp's known or to be found
   std::optional<Vec3> position_m;
   std::optional<Vec3> normal;           // unit, where the reading gives one

@@ -192,6 +192,7 @@ void FreeScale(const Observations& observations, Prepared& out) {
 Prepared Prepare(const Observations& observations, const ForwardModel& model) {
   Prepared out;
   out.estimation.choice = model.choice;
+  out.estimation.uneven_part = model.uneven_part;
   out.scales = ScalesOf(observations);
   out.shortest = std::numeric_limits<double>::infinity();
   double dimmest = std::numeric_limits<double>::infinity();

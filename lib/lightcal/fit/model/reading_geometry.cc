@@ -65,13 +65,20 @@ PartRound MeanRound(const std::function<double(double)>& part_of) {
   return {mean, std::sqrt(std::max(0.0, squares / kSides - mean * mean)) / mean};
 }
 
-double TablePartTowards(const LightDescription& light, const Reading& reading) {
-  if (!light.distribution) return 1.0;
+TablePart TablePartTowards(const LightDescription& light, const Reading& reading) {
+  if (!light.distribution) return {};
   const IntensityTable& table = *light.distribution;
-  if (const double off = reading.off_axis.value(); off != 0.0) {
-    const PartRound part = MeanRound(
-        [&](double about) { return table.At(Radians(about), Radians(std::abs(off))).value(); });
-    return part.mean / table.peak().intensity.value();
+  const auto part = [&](double candela, double error) {
+    return TablePart{candela / table.peak().intensity.value(),
+                     candela > 0.0 ? error / candela : 0.0};
+  };
+  if (const double off = std::abs(reading.off_axis.value()); off != 0.0) {
+    const auto round = [&](auto candela_at) {
+      return MeanRound([&](double about) { return candela_at(Radians(about)).value(); }).mean;
+    };
+    return part(
+        round([&](Radians about) { return table.At(about, Radians(off)); }),
+        round([&](Radians about) { return table.InterpolationErrorAt(about, Radians(off)); }));
   }
   Vec3 towards{0.0, 0.0, -1.0};
   if (reading.position_m && light.position_m) {
@@ -80,7 +87,7 @@ double TablePartTowards(const LightDescription& light, const Reading& reading) {
     const Vec3 way = *reading.position_m - *light.position_m;
     towards = {Dot(way, axes.c0), Dot(way, axes.c90), -Dot(way, axes.aim)};
   }
-  return table.Towards(towards) / table.peak().intensity;
+  return part(table.Towards(towards).value(), table.InterpolationErrorTowards(towards).value());
 }
 
 Result<ReadingGeometry> GeometryOfReading(const LightDescription& light, const Reading& reading,
@@ -124,7 +131,7 @@ std::string FaultOfReading(const LightDescription& light, const Reading& reading
   if (lit && !(geometry.distance_m > 0.0)) return "its distance is 0; no law holds there";
   if (!std::isfinite(geometry.tilt_rad)) return "its tilt is not a number";
   if (!lit) return {};
-  if (!(TablePartTowards(light, reading) > 0.0)) {
+  if (!(TablePartTowards(light, reading).of_peak > 0.0)) {
     return "the lamp's photometric file has no light in the meter's direction";
   }
   if (geometry.distance_m < InnerRadius(light)) {

@@ -34,10 +34,16 @@ struct PartRound {
 // `part_of`(radians about the axis), of a full turn.
 [[nodiscard]] PartRound MeanRound(const std::function<double(double)>& part_of);
 
-// Intensity towards the meter over the peak's, by the lamp's table; 1 without one. A reading by its
-// angle has the mean of all sides; one that says neither angle nor position stands on the lamp's
-// aim, and a lamp without an aim shines down.
-[[nodiscard]] double TablePartTowards(const LightDescription& light, const Reading& reading);
+// Intensity towards the meter over the peak's, by the lamp's table, and how far that may lie from a
+// smooth lobe's (IntensityTable::InterpolationErrorTowards), relative.
+struct TablePart {
+  double of_peak = 1.0;
+  double error = 0.0;
+};
+
+// 1 without a table. A reading by its angle has the mean of all sides; one that says neither angle
+// nor position stands on the lamp's aim, and a lamp without an aim shines down.
+[[nodiscard]] TablePart TablePartTowards(const LightDescription& light, const Reading& reading);
 
 // Why no law of light can hold for a reading (which has an illuminance) there; "" = one can.
 [[nodiscard]] std::string FaultOfReading(const LightDescription& light, const Reading& reading,

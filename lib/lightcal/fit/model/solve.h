@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "lightcal/core/result.h"
@@ -20,7 +21,8 @@ using Theta = std::array<double, kParameters>;
 struct Estimation {
   std::vector<ReadingRow> rows;
   std::array<ParameterRule, kParameters> rules;
-  double least_distance_offset = -1e300;  // d0 stays at or above it, so that d + d0 > 0
+  std::string_view uneven_part = "uneven_light";  // what the rows' unevenness is called
+  double least_distance_offset = -1e300;          // d0 stays at or above it, so that d + d0 > 0
   EstimatorChoice choice{};
 
   static constexpr int kCount = kParameters;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "lightcal/light/effects/table_interpolation.h"
+
 namespace lightcal::fit {
 namespace {
 
@@ -123,6 +125,23 @@ std::vector<double> UnevenTowards(const Observations& observations, const LightD
     if (!directions[i]) continue;
     const double sharing = shared[which[i]].readings;
     out[i] = SdTowards(*uneven, *directions[i]) * std::sqrt(sharing);
+  }
+  return out;
+}
+
+std::vector<double> UnevenByTable(const Observations& observations) {
+  // Half the bound.
+  constexpr double kSigma = 0.5 * effects::kInterpolationMargin;
+  const std::vector<Observation>& rows = observations.rows;
+  std::vector<double> out(rows.size(), 0.0);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double error = rows[i].lit ? rows[i].table_error : 0.0;
+    if (!(error > 0.0)) continue;
+    double sharing = 0.0;
+    for (const Observation& row : rows) {
+      if (row.lit) sharing += std::min(1.0, row.table_error / error);
+    }
+    out[i] = kSigma * error * std::sqrt(sharing);
   }
   return out;
 }

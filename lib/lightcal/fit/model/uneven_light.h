@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How unevenly a lamp without a measured distribution shines to its sides.
+// How unevenly a lamp without a measured distribution shines to its sides, and how well a table
+// of directions tells it.
 #pragma once
 
 #include <optional>
@@ -35,5 +36,10 @@ namespace lightcal::fit {
 // whose place is not known may be anywhere. Empty where all lie in one direction.
 [[nodiscard]] std::vector<double> UnevenTowards(const Observations& observations,
                                                 const LightDescription& light);
+
+// Of a lamp with a table, beside the observations: 1 sigma of ln I between its nodes
+// (Observation::table_error), times the root of how many readings share it: nodes miss neighbouring
+// directions alike. Empty where all face a node.
+[[nodiscard]] std::vector<double> UnevenByTable(const Observations& observations);
 
 }  // namespace lightcal::fit

@@ -113,7 +113,11 @@ void Apply(const Scene& scene, const LightDescription& light, const Observations
     model.makes = scene.makes;
   }
   if (effect.name == "ambient" && effect.state == GateState::kOff) model.fit_ambient = false;
-  if (const double sd = WidensBy(effect); sd > 0.0) {
+  const double sd = WidensBy(effect);
+  if (sd > 0.0 && effect.name == "table_interpolation") {
+    model.uneven = UnevenByTable(observations);
+    model.uneven_part = effect.name;
+  } else if (sd > 0.0) {
     model.considered.push_back(Widening(scene, effect, sd));
   }
   if (effect.state == GateState::kOff) return;

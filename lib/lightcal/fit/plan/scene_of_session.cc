@@ -252,20 +252,16 @@ Scene SceneOfSession(const Session& session, const LightDescription& light,
   scene.inner = light.inner;
   scene.outer = light.outer;
   scene.beam = light.beam;
-  double least_part = 1.0;
   for (const Observation& row : observations.rows) {
     if (!row.lit) continue;
     scene.poses.push_back({row.distance_m, row.tilt_rad, row.measured_from_center, row.differenced,
-                           row.position_m, EmissionOf(light, row), row.of_luminance});
-    least_part = std::min(least_part, row.table_part);
+                           row.position_m, EmissionOf(light, row), row.of_luminance,
+                           row.table_error});
   }
   scene.distances = CountDistinctDistances(observations.rows);
   scene.ambient_ratio = AmbientRatio(observations);
   if (session.room) scene.room = RoomBox{session.room->size_m, session.room->reflectance, patches};
-  if (light.distribution) {
-    scene.table = SceneTableOf(*light.distribution);
-    scene.table->least_part = least_part;
-  }
+  if (light.distribution) scene.table_step_rad = light.distribution->LargestStep().value();
   scene.dark = session.surroundings == Surroundings::kDark;
   AddPriors(session, light, observations, scene);
   AddTime(session, light, scene);
