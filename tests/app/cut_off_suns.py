@@ -64,6 +64,25 @@ for name, place, clip, colours in (("pixel", (100.5, 40.5), 90.0, True), ("two",
 factor, (low, high), warned = scale_of("whole", sun_at(100.5, 40.5), np.inf)
 assert abs(factor - 1) < 0.01 and low > 0.89 and high < 1.11 and "maybe_clipped" not in warned, (factor, low, high, warned)
 
+# A smooth glow is whole, in Radiance's eight bits of mantissa too, where two pixels share its top.
+def write_radiance(path, pixels):
+    most = pixels.max(-1)
+    mantissa, exponent = np.frexp(most)
+    rgbe = np.concatenate([pixels * (mantissa * 256 / np.maximum(most, 1e-30))[..., None], (exponent + 128)[..., None]], -1)
+    path.write_bytes(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % pixels.shape[:2] + rgbe.astype(np.uint8).tobytes())
+
+
+towards = np.array([0.4, 0.5, 0.7])
+for width in (4.0, 8.0, 16.0):
+    glow = 2000 * np.exp(-((np.degrees(np.arccos(np.clip(WAY @ towards / np.linalg.norm(towards), -1, 1))) / width) ** 2))
+    pixels = (90 + glow)[..., None] * np.array([1.0, 0.9, 0.8])
+    write_radiance(HOME / f"glow{width:g}.hdr", pixels)
+    lux = up(pixels @ Y709)
+    said = answer("dome", HOME / f"glow{width:g}.hdr", "--lux", f"{lux:.6g}", "-o", HOME / f"glow{width:g}")
+    warned = [w["code"] for w in said.get("warnings", [])]
+    print(f"a smooth glow of {width:g} degrees: scale {said['scale']['factor']:.3f} of the truth, {warned}")
+    assert abs(said["scale"]["factor"] - 1) < 0.02 and "maybe_clipped" not in warned, said["scale"]
+
 # A merge knows what it clipped: of its picture, in cd/m2, the sun is what the reading leaves over the sky.
 sun = sun_at(100.5, 40.5)
 for i, time in enumerate((1.0, 4.0)):

@@ -11,7 +11,7 @@
 namespace lightcal {
 
 FlatTop TopOf(std::span<const float> samples) {
-  constexpr float kJustBelow = 1.0F - 0x1p-9F;  // two steps of 16 bit floats or more
+  constexpr float kJustBelow = 0.99F;  // a step of RGBE (eight bits of mantissa: 1/128) or more
   FlatTop top;
   if (samples.empty()) return top;
   top.value = *std::ranges::max_element(samples);

@@ -18,7 +18,8 @@ struct FlatTop {
 [[nodiscard]] FlatTop TopOf(std::span<const float> samples);
 
 // Of what rises smoothly to its largest value as many samples lie just below it, in 16 bit floats
-// too: where hardly any do, the picture was cut off there, or drawn. `least`: so many share it.
+// and RGBE too: where hardly any do, the picture was cut off there, or drawn. `least`: so many
+// share it.
 [[nodiscard]] bool IsCutOff(const FlatTop& top, int least);
 
 // Pixels at the picture's largest luminance, and at a channel's largest value, where they are cut
