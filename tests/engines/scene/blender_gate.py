@@ -88,6 +88,28 @@ class LightsAlone(unittest.TestCase):
         self.assertEqual(changed(rigged, rigged_again), set())
 
 
+class SceneUnits(unittest.TestCase):
+    def test_a_scene_in_centimetres_shows_the_same_light(self):
+        """E = P/(4 pi d^2) in the scene's own units: a hundred times as far, ten thousand times the watts."""
+        names = ['key', 'green spot', 'panel', 'luminaire', 'sun']
+        centimetres = "bpy.context.scene.unit_settings.scale_length = 0.01"
+        with tempfile.TemporaryDirectory() as folder:
+            path = export(folder, names)
+            metres, _ = blender(folder, {'run': path})
+            (_, _, small), logs = blender(folder, {'edit': centimetres}, {'run': path})
+        for name in names:
+            there, here = json.loads(metres[1]['lights:' + name]), json.loads(small['lights:' + name])
+            times = 1.0 if name == 'sun' else 1e4
+            self.assertAlmostEqual(float(here['energy']) / float(there['energy']) / times, 1.0, delta=1e-4, msg=name)
+            for side in ('size', 'size_y', 'shadow_soft_size') if name in ('key', 'panel') else ():
+                if side in there and (side == 'shadow_soft_size') == (name == 'key'):
+                    self.assertAlmostEqual(float(here[side]), 100 * float(there[side]), delta=1e-3, msg=name)
+            for x, y in zip(json.loads(metres[1]['objects:' + name])['location'].strip('[]').split(','),
+                            json.loads(small['objects:' + name])['location'].strip('[]').split(',')):
+                self.assertAlmostEqual(float(y), 100 * float(x), delta=1e-3, msg=name)
+        self.assertIn('has 100 units a metre', logs[-1])
+
+
 class Domes(unittest.TestCase):
     def test_export_says_that_a_scenes_own_world_stays(self):
         for names, said in ((NAMES, True), (NAMES[:-1], False)):

@@ -31,6 +31,12 @@ def owned(thing):
     return thing
 
 
+def units_per_metre(scene):
+    """A scene kept in centimetres has 100: its lights shine by its own units, not by what it shows."""
+    settings = scene.unit_settings
+    return 1.0 if settings.system == 'NONE' else 1.0 / settings.scale_length
+
+
 def placed(name, data, collection, columns, position, thing=None):
     """A new object, or one that is there, moved."""
     if thing is None:
@@ -81,14 +87,14 @@ def type_of(light):
     return 'POINT' if light['type'] == 'IES' else light['type']
 
 
-def set_figures(lamp, light):
-    """All that shapes the light of a lamp whose type is type_of(light)."""
+def set_figures(lamp, light, units=1.0):
+    """All that shapes the light of a lamp whose type is type_of(light); units: of the scene, a metre."""
     kind = light['type']
     lamp.color = light['color']
-    lamp.energy = light['energy_W']
+    lamp.energy = light['energy_W'] * (1.0 if kind == 'SUN' else units ** 2)
     if kind == 'AREA':
         lamp.shape = light['shape']
-        lamp.size, lamp.size_y = light['size_m']
+        lamp.size, lamp.size_y = [side * units for side in light['size_m']]
         lamp.spread = math.pi  # all of its half space
         if hasattr(lamp, 'cycles'):
             lamp.cycles.is_portal = False  # portals give no light of their own
@@ -97,7 +103,7 @@ def set_figures(lamp, light):
     elif kind == 'SUN':
         lamp.angle = light['angle_rad']
     else:
-        lamp.shadow_soft_size = light['radius_m']
+        lamp.shadow_soft_size = light['radius_m'] * units
         if hasattr(lamp, 'use_soft_falloff'):
             lamp.use_soft_falloff = False  # on, it is the disc of before 4.0, dark close to a sphere
     if kind == 'SPOT':
@@ -170,7 +176,7 @@ def set_knobs(lamp, controls):
                [(n, '["%s"]' % held) for n, held in zip(names, factors[what])])
 
 
-def add_light(collection, light, mine=None):
+def add_light(collection, light, mine=None, units=1.0):
     """A light, in the place of ours of an earlier run where there is one."""
     lamp = bpy.data.lights.new(light['name'], type_of(light))
     if mine:
@@ -178,8 +184,9 @@ def add_light(collection, light, mine=None):
         name = earlier.name
         discard(earlier)
         lamp.name = name
-    set_figures(lamp, light)
-    thing = placed(light['name'], lamp, collection, light['axes'], light['position_m'], mine)
+    set_figures(lamp, light, units)
+    thing = placed(light['name'], lamp, collection, light['axes'],
+                   Vector(light['position_m']) * units, mine)
     thing[LAMP] = light['name']
 
 
@@ -303,9 +310,17 @@ def replace_world(scene, domes):
             bpy.data.worlds.remove(world)
 
 
+def say_units(scene):
+    units = units_per_metre(scene)
+    if abs(units - 1.0) > 1e-6:
+        print('lightcal: "%s" has %.4g units a metre: places and sizes are in them, and the watts '
+              'are %.6g times those of the preset' % (scene.name, units, units ** 2))
+
+
 def bring_lights():
     """Into the scene that is open: ours of an earlier run are replaced, all else stays as it is."""
     scene = bpy.context.scene
+    units = units_per_metre(scene)
     collection = own_collection(scene)
     ours = {}
     for thing in [t for t in scene.objects if is_own(t)]:
@@ -314,7 +329,7 @@ def bring_lights():
     for light in PRESET['lights']:
         if light['type'] != 'WORLD':
             mine = ours.get(light['name'])
-            add_light(collection, light, mine.pop(0) if mine else None)
+            add_light(collection, light, mine.pop(0) if mine else None, units)
             count += 1
     for thing in [thing for left in ours.values() for thing in left]:
         lamp = thing.data
@@ -324,6 +339,7 @@ def bring_lights():
     stops = math.log2(PRESET['exposure']['exposure'] * PRESET['lumens_per_watt'])
     print('lightcal: %d lights in "%s"; as the meter saw it at exposure %+.1f (Color Management)'
           % (count, scene.name, stops))
+    say_units(scene)
     return scene
 
 
@@ -374,9 +390,9 @@ def figures(lamp):
     if lamp.type == 'SPOT':
         text += ', cone %.4g deg, blend %.3g' % (math.degrees(lamp.spot_size), lamp.spot_blend)
     if lamp.type in ('POINT', 'SPOT'):
-        text += ', radius %.4g m' % lamp.shadow_soft_size
+        text += ', radius %.4g' % lamp.shadow_soft_size
     if lamp.type == 'AREA':
-        text += ', %s %.4g x %.4g m' % (lamp.shape.lower(), lamp.size, lamp.size_y)
+        text += ', %s %.4g x %.4g' % (lamp.shape.lower(), lamp.size, lamp.size_y)
     if lamp.type == 'SUN':
         text += ', angle %.4g deg' % math.degrees(lamp.angle)
     return text + (', nodes' if lamp.use_nodes else '')
@@ -442,9 +458,10 @@ def set_lights_that_are_there():
     for thing, lamp in taken.items():
         before, was = figures(thing.data), thing.data.type
         thing.data.type = type_of(lights[lamp])
-        set_figures(thing.data.type_recast(), lights[lamp])
+        set_figures(thing.data.type_recast(), lights[lamp], units_per_metre(scene))
         print('lightcal: %s: %s -> %s   (%s)' % (thing.name, before, figures(thing.data), lamp))
         say_what_else_shapes(thing, was, lights[lamp])
+    say_units(scene)
     return scene
 
 

@@ -44,7 +44,7 @@ def add_card(scene, place, normal, reflectance=0.18, side=0.1):
     diffuse.inputs['Color'].default_value = [reflectance] * 3 + [1.0]
     output = tree.nodes.new('ShaderNodeOutputMaterial')
     tree.links.new(diffuse.outputs[0], output.inputs['Surface'])
-    h = side / 2
+    h = side / 2 * lamps.units_per_metre(scene)
     mesh = bpy.data.meshes.new('lightcal card')
     mesh.from_pydata([(-h, -h, 0), (h, -h, 0), (h, h, 0), (-h, h, 0)], [], [(0, 1, 2, 3)])
     mesh.materials.append(material)

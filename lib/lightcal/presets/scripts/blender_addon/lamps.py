@@ -14,6 +14,20 @@ CONTROL = 'lightcal '  # before a control's name
 READ = {}  # {path: (stamp, lights)}: what was read last
 
 
+def units_per_metre(scene):
+    """A scene kept in centimetres has 100: its lights shine by its own units, not by what it shows."""
+    settings = scene.unit_settings
+    return 1.0 if settings.system == 'NONE' else 1.0 / settings.scale_length
+
+
+def in_units(values, units):
+    """The same lamp in a scene of so many units a metre."""
+    lengths = {key: values[key] * units for key in ('size', 'size_y', 'radius') if key in values}
+    energy = values['energy'] * (1.0 if values['type'] == 'SUN' else units ** 2)
+    place = [p * units for p in values['position']]
+    return dict(values, energy=energy, position=place, **lengths)
+
+
 def stamp_of(path):
     """What tells a changed file; '' = it is not there."""
     try:
@@ -152,7 +166,8 @@ def set_from(thing, light):
     if values is None:
         note(thing, 'no figure')
         return
-    set_lamp(thing.data, values)
+    units = units_per_metre(thing.users_scene[0]) if thing.users_scene else 1.0
+    set_lamp(thing.data, in_units(values, units))
     note(thing, laws.interval_text(here))
     thing['lightcal_set'] = said_of(thing)
 
@@ -196,7 +211,7 @@ def place(scene, path, light, at=None):
     data = bpy.data.lights.new(light['name'], lamp['type'])
     thing = bpy.data.objects.new(light['name'], data)
     thing['lightcal_file'], thing['lightcal_light'] = path, light['name']
-    thing.matrix_world = matrix_of(lamp)
+    thing.matrix_world = matrix_of(in_units(lamp, units_per_metre(scene)))
     if at is not None:
         thing.matrix_world.translation = at
     collection_of(scene).objects.link(thing)
