@@ -13,10 +13,7 @@ namespace lightcal::app {
 
 // "0.94, 0.67, 0.43 (linear)" of a figure's note; "" where it has no colour.
 [[nodiscard]] inline std::string ColorOf(const EngineFigure& figure) {
-  if (!HasColor(figure)) return "";
-  const std::size_t begin = std::min(figure.note.find("color "), figure.note.find("Color ")) + 6;
-  return figure.note.substr(begin,
-                            std::min(figure.note.find(';', begin), figure.note.size()) - begin);
+  return HasColor(figure) ? figure.color : "";
 }
 
 // A line a colour, with the engines that take it.

@@ -362,6 +362,12 @@ std::string LampAnswerText(const LampAnswer& answer, const Session& session) {
   if (const std::string typed = TypeIn(answer.figures); !typed.empty()) {
     text += LabelledLine("type in", typed);
     if (const std::string why = WhyTheyDiffer(answer); !why.empty()) text += LabelledLine("", why);
+    if (const std::string cones = Cones(answer.figures); !cones.empty()) {
+      text += LabelledLine("cone", cones);
+    }
+    if (const std::string& place = answer.figures.front().place; !place.empty()) {
+      text += LabelledLine("place", place);
+    }
   }
   if (const std::string cone = ConeDrawn(light, session); !cone.empty()) {
     text += LabelledLine("", cone);

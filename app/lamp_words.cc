@@ -55,6 +55,7 @@ std::string WithIt(const EngineFigure& figure) {
            " K";
   }
   std::string with = HasColor(figure) ? " + colour" : "";
+  if (!figure.with.empty()) with += " + " + figure.with;
   if (figure.note.find("exported .ies") != std::string::npos) with += " + its .ies";
   return with;
 }
@@ -112,10 +113,8 @@ std::string BareStops(double stops) {
 }
 
 bool HasColor(const EngineFigure& figure) {
-  const auto at = std::min(figure.note.find("color "), figure.note.find("Color "));
-  if (at == std::string::npos) return false;
-  const std::string color = figure.note.substr(at + 6);
-  return !color.starts_with("1, 1, 1 ") && !color.starts_with("255, 255, 255 ");
+  return !figure.color.empty() && !figure.color.starts_with("1, 1, 1 ") &&
+         !figure.color.starts_with("255, 255, 255 ");
 }
 
 // "Blender 1.61 W · Unity, glTF 87 cd + colour"
@@ -124,7 +123,9 @@ std::string TypeIn(const std::vector<EngineFigure>& figures) {
   for (const EngineFigure& figure : figures) {
     std::string typed = Typed(figure.value);
     if (!figure.unit.empty()) typed += " " + figure.unit;
-    typed += RadiusOf(figure) + WithIt(figure);
+    typed += RadiusOf(figure);
+    if (!figure.before.empty()) typed += " (" + figure.before + ")";
+    typed += WithIt(figure);
     const auto same = std::ranges::find(groups, typed, &std::pair<std::string, std::string>::first);
     const std::string name = ShortName(figure.engine);
     if (same == groups.end()) {
@@ -134,6 +135,15 @@ std::string TypeIn(const std::vector<EngineFigure>& figures) {
     }
   }
   return Joined(groups, " · ", [](const auto& one) { return one.second + " " + one.first; });
+}
+
+std::string Cones(const std::vector<EngineFigure>& figures) {
+  std::string text;
+  for (const EngineFigure& figure : figures) {
+    if (figure.cone.empty()) continue;
+    text += (text.empty() ? "" : " · ") + ShortName(figure.engine) + " " + figure.cone;
+  }
+  return text;
 }
 
 std::string LabelledLine(const std::string& label, const std::string& text) {

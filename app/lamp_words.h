@@ -46,6 +46,9 @@ struct Strength {
 
 // "Blender 1.61 W · Unity, glTF 87 cd + colour": three digits, engines of one number together.
 [[nodiscard]] std::string TypeIn(const std::vector<EngineFigure>& figures);
+// "Blender Spot Size 46.4°, Blend 0.65 · Unreal Inner Cone Angle 15°, Outer Cone Angle 25°"; "" of
+// what is no spot.
+[[nodiscard]] std::string Cones(const std::vector<EngineFigure>& figures);
 [[nodiscard]] bool HasColor(const EngineFigure& figure);
 
 // Words of a line behind a label of its own column, broken at 100 columns.

@@ -30,7 +30,8 @@ Result<void> CheckStems(const std::vector<std::string>& inputs) {
     const auto [earlier, added] = seen.emplace(fs::path(input).stem().string(), input);
     if (!added) {
       return WrongUsage(input, "its presets would have the names of those of " + earlier->second +
-                                   "; export them to separate directories");
+                                   "; name the sessions (lightcal export a b), whose "
+                                   "presets have theirs, or export them to separate directories");
     }
   }
   return {};

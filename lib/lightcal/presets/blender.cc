@@ -94,6 +94,11 @@ double WattsOf(const PresetLight& light) {
   }
 }
 
+double BlendOf(const EngineCone& fit) {
+  const double outer = std::cos(fit.cone.outer.value());
+  return (std::cos(fit.cone.inner.value()) - outer) / (1.0 - outer);
+}
+
 // What a light with an IES node is told by itself is that node's multiplier, whatever the lamp: a
 // person who types takes Blender's own light of that intensity. Before 4.0 an area light of P watts
 // has P/4 on its axis, not P/pi.
@@ -107,6 +112,10 @@ void PutPlainPower(const PresetLight& light, DerivedLight& out) {
       4.0 * std::numbers::pi * plain.photometric / (kLumensPerWatt * plain.color.luminance);
   const bool spot = plain.type == PunctualType::kSpot;
   out.elsewhere.push_back({spot ? "spot_power_W" : "point_power_W", {watts}});
+  if (spot && light.beam) {
+    out.elsewhere.push_back({"spot_size_rad", {2.0 * light.cone.cone.outer.value()}});
+    out.elsewhere.push_back({"spot_blend", {BlendOf(light.cone)}});
+  }
   out.elsewhere.push_back({"ies_strength_W", {WattsOf(light)}});
 }
 
@@ -119,9 +128,7 @@ Node Axes(const PresetLight& light) {
 }
 
 Node SpotShape(const EngineCone& fit) {
-  const double outer = std::cos(fit.cone.outer.value());
-  Node shape = {{"spot_size_rad", 2.0 * fit.cone.outer.value()},
-                {"spot_blend", (std::cos(fit.cone.inner.value()) - outer) / (1.0 - outer)}};
+  Node shape = {{"spot_size_rad", 2.0 * fit.cone.outer.value()}, {"spot_blend", BlendOf(fit)}};
   shape.Put("worst_of_axial", fit.worst);
   shape.Put("flux_factor", fit.flux);
   return shape;

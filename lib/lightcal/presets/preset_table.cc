@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <vector>
 
 #include "lightcal/colorimetry/engine_kelvin.h"
@@ -14,13 +15,31 @@ namespace {
 
 // ---- what a person types in ----
 
-constexpr TypedNote kLinearColor{"color", "color ", " (linear)"};
-constexpr TypedNote kEncodedColor{"light_color", "Color ", " (sRGB)"};
+constexpr TypedNote kLinearColor{"color", "color ", " (linear)", true, TypedPart::kColor};
+constexpr TypedNote kEncodedColor{"light_color", "Color ", " (sRGB)", true, TypedPart::kColor};
 constexpr TypedNote kRadius{"radius", "radius ", " m"};
-constexpr TypedNote kColorNotes[] = {kLinearColor};
+
+constexpr TypedNote Cone(std::string_view field, std::string_view before, std::string_view after,
+                         double factor = 1.0) {
+  return {field, before, after, true, TypedPart::kCone, factor};
+}
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+constexpr TypedNote kGltfNotes[] = {kLinearColor, Cone("outerConeAngle", "outerConeAngle ", " rad"),
+                                    Cone("innerConeAngle", "innerConeAngle ", " rad")};
+constexpr TypedNote kThreeNotes[] = {kLinearColor, Cone("outer_rad", "outer half angle ", " rad"),
+                                     Cone("inner_rad", "inner ", " rad")};
+constexpr TypedNote kFilamentNotes[] = {kLinearColor, Cone("inner_rad", "spotLightCone(", " rad"),
+                                        Cone("outer_rad", "", " rad)")};
+constexpr TypedNote kUnityNotes[] = {kEncodedColor,
+                                     Cone("spot_angle_deg", "Outer Angle ", "°"),
+                                     Cone("inner_spot_percent", "Inner Angle ", " %"),
+                                     {"range_m", "Range ", " m"}};
 constexpr TypedNote kBlenderNotes[] = {
     kLinearColor,
-    {"area_power_before_4_0_W", "before Blender 4.0 ", " W"},
+    Cone("spot_size_rad", "Spot Size ", "°", kDegrees),
+    Cone("spot_blend", "Blend ", ""),
+    {"area_power_before_4_0_W", "before Blender 4.0 ", " W", true, TypedPart::kEarlierVersions},
     {"ies_strength_W", "the exported file has an IES node, of Power ", " W"}};
 
 constexpr TypedNumber kGltfNumbers[] = {{"directional", "intensity", "intensity", "lx"},
@@ -29,20 +48,36 @@ constexpr TypedNumber kGodotNumbers[] = {
     {"", "light_intensity_lumens", "Intensity", "lm"},
     {"", "light_intensity_lux", "Intensity", "lx"},
     {"", "background_intensity", "Background intensity", "nits"}};
-// light_temperature is neutral and left out.
+// Its lights are born with Attenuation 1, which is 4 times too bright at 4 m, and ignore lumens
+// until the project has physical units. light_temperature is neutral and left out.
+constexpr std::string_view kGodotUnits = "in a project that uses physical light units";
 constexpr TypedNote kGodotNotes[] = {
     {"background_energy_multiplier", "Background energy multiplier ", ""},
     kEncodedColor,
-    {"background_color", "Color ", " (sRGB)"}};
+    {"background_color", "Color ", " (sRGB)", true, TypedPart::kColor},
+    Cone("spot_angle", "Angle ", "°"),
+    Cone("spot_angle_attenuation", "Angle Attenuation ", ""),
+    {"spot_attenuation", "Attenuation ", "", true, TypedPart::kWith},
+    {"omni_attenuation", "Attenuation ", "", true, TypedPart::kWith},
+    {"light_intensity_lumens", kGodotUnits, "", false},
+    {"light_intensity_lux", kGodotUnits, "", false},
+    {"spot_range", "Range ", " m"},
+    {"omni_range", "Range ", " m"}};
 constexpr TypedNumber kMitsubaNumbers[] = {{"", "intensity", "intensity", ""},
                                            {"", "irradiance", "irradiance", ""},
                                            {"", "radiance", "radiance", ""}};
-constexpr TypedNote kMitsubaNotes[] = {{"pre_exposure", "pre-exposed by ", ""}, kRadius};
+constexpr TypedNote kMitsubaNotes[] = {{"pre_exposure", "pre-exposed by ", ""},
+                                       kRadius,
+                                       Cone("cutoff_angle", "cutoff_angle ", "°"),
+                                       Cone("beam_width", "beam_width ", "°")};
 constexpr TypedNumber kPbrtNumbers[] = {{"", "illuminance", "illuminance", "lx"},
                                         {"diffuse", "scale", "scale", "nits"},
                                         {"infinite", "scale", "scale", "nits"},
                                         {"", "scale", "scale", "cd"}};
-constexpr TypedNote kPbrtNotes[] = {{"rgb", "rgb ", ""}, kRadius};
+constexpr TypedNote kPbrtNotes[] = {{"rgb", "rgb ", "", true, TypedPart::kColor},
+                                    kRadius,
+                                    Cone("coneangle", "coneangle ", "°"),
+                                    Cone("conedeltaangle", "conedeltaangle ", "°")};
 constexpr TypedNumber kUnityNumbers[] = {{"Directional", "intensity", "Intensity", "lx"},
                                          {"Sky", "upward_lx", "Desired Lux Value", "lx"},
                                          {"Rectangle", "intensity", "Intensity", "nits"},
@@ -54,11 +89,17 @@ constexpr TypedNote kUnrealNotes[] = {
     {"temperature", "Temperature ", " K"},
     kEncodedColor,
     {"ies", "with the exported .ies as its IES Texture", "", false},
-    {"spot_angles_deg", "or of a Spot Light, whose cone angles are ", ""}};
+    {"spot_angles_deg", "or of a Spot Light, whose cone angles are ", ""},
+    Cone("inner_cone_angle", "Inner Cone Angle ", "°"),
+    Cone("outer_cone_angle", "Outer Cone Angle ", "°"),
+    {"attenuation_radius", "Attenuation Radius ", " cm"}};
 constexpr TypedNumber kUsdNumbers[] = {{"DistantLight", "intensity", "intensity", "lx"},
                                        {"", "intensity", "intensity", "nits"}};
-constexpr TypedNote kUsdNotes[] = {
-    kLinearColor, kRadius, {"ies", "with the exported .ies (shaping:ies:file)", "", false}};
+constexpr TypedNote kUsdNotes[] = {kLinearColor,
+                                   kRadius,
+                                   {"ies", "with the exported .ies (shaping:ies:file)", "", false},
+                                   Cone("shaping:cone:angle", "shaping:cone:angle ", "°"),
+                                   Cone("shaping:cone:softness", "softness ", "")};
 constexpr TypedNumber kBlenderNumbers[] = {{"SUN", "energy_W", "Strength", "W/m²"},
                                            {"IES", "spot_power_W", "Power of a plain Spot", "W"},
                                            {"IES", "point_power_W", "Power of a plain Point", "W"},
@@ -91,7 +132,7 @@ constexpr std::array kTargets = {
                  .title = "glTF",
                  .panorama = PanoramaLaw::kNineHarmonics,
                  .numbers = kGltfNumbers,
-                 .notes = kColorNotes},
+                 .notes = kGltfNotes},
     PresetTarget{.name = "godot",
                  .exporter = &ExportGodot,
                  .verified = "schema-checked; lamps once rendered in Godot 4.6.3: lux within 1 %",
@@ -136,7 +177,7 @@ constexpr std::array kTargets = {
                  .emission = &EmittedInUnity,
                  .cone = EngineConeLaw::kSquared,
                  .numbers = kUnityNumbers,
-                 .notes = kColorNotes,
+                 .notes = kUnityNotes,
                  .renderers = kUnityRenderers},
     PresetTarget{.name = "unreal",
                  .exporter = &ExportUnreal,
@@ -196,7 +237,7 @@ constexpr std::array kTargets = {
                  .title = "three.js, Babylon.js",
                  .panorama = PanoramaLaw::kNineHarmonics,
                  .numbers = kThreeNumbers,
-                 .notes = kColorNotes,
+                 .notes = kThreeNotes,
                  .renderers = kThreeRenderers},
     PresetTarget{.name = "filament",
                  .exporter = &ExportFilament,
@@ -207,7 +248,7 @@ constexpr std::array kTargets = {
                  .title = "Filament",
                  .panorama = PanoramaLaw::kNineHarmonics,
                  .numbers = kFilamentNumbers,
-                 .notes = kColorNotes,
+                 .notes = kFilamentNotes,
                  .renderers = kFilamentRenderers},
     PresetTarget{.name = "ies",
                  .exporter = &ExportIes,

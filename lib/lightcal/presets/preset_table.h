@@ -24,10 +24,14 @@ namespace lightcal {
 struct TypedNumber {
   std::string_view type, field, label, unit;
 };
-// What must be set with it.
+// What must be set with it: a field of the exported light, `factor` times as large where people see
+// another unit than files have.
+enum class TypedPart : std::uint8_t { kOther, kColor, kCone, kWith, kEarlierVersions };
 struct TypedNote {
   std::string_view field, before, after;
   bool shows_number = true;
+  TypedPart part = TypedPart::kOther;
+  double factor = 1.0;
 };
 
 // What a sample of a linear picture (EXR) stands for.

@@ -145,6 +145,8 @@ Result<Preset> ExportUnity(const LightFile& lights, const std::string& stem,
     preset.derived.back().Put("urp_intensity", urp.Find("intensity")->values[0]);
     const Rgb& c = (*forms)[i].color().max_normalised;
     preset.derived.back().elsewhere.push_back({"color", {c.r, c.g, c.b}});
+    preset.derived.back().elsewhere.push_back(
+        {"light_color", {SrgbEncoded(c.r), SrgbEncoded(c.g), SrgbEncoded(c.b)}});
   }
   const std::string name = preset_text::SceneStem(stem, options);
   Node root = {{"schema", "lightcal.unity/1"},

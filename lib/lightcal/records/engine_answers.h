@@ -16,7 +16,13 @@ struct EngineFigure {
   std::string field;   // "SpotLight · Intensity"
   std::string value;   // "1934.2", plain digits that can be pasted
   std::string unit;    // "cd"; "" where the engine's number has none
-  std::string note;    // what must be set with it; may be empty
+  // What must be set with it, each "" where nothing must.
+  std::string color;   // "1, 0.5155, 0.194 (linear)"
+  std::string cone;    // "Outer Angle 50°, Inner Angle 60 %"
+  std::string with;    // "Attenuation 2", without which the number is another lamp
+  std::string before;  // in earlier versions: "before Blender 4.0 17.71 W"
+  std::string place;   // "stands 30 cm behind the point its distances were measured from"
+  std::string note;    // all of it, and what the engine makes otherwise
 };
 
 // A white card under a panorama, facing one way.

@@ -25,26 +25,47 @@ std::string WithoutZeros(std::string text) {
   return text;
 }
 
-std::string TextOf(const DerivedField& field, int digits) {
+std::string TextOf(const DerivedField& field, int digits, double factor = 1.0) {
   constexpr std::size_t kChannels = 3;  // a fourth is an opaque alpha
   std::string text;
   for (std::size_t i = 0; i < std::min(field.values.size(), kChannels); ++i) {
-    text += (i == 0 ? "" : ", ") + WithoutZeros(RoundedText(field.values[i], digits));
+    text += (i == 0 ? "" : ", ") + WithoutZeros(RoundedText(factor * field.values[i], digits));
   }
   return text;
 }
 
-std::string NoteOf(const PresetTarget& engine, const DerivedLight& light) {
-  std::string note;
+void Append(std::string_view text, std::string_view by, std::string& to) {
+  to.append(to.empty() || text.empty() ? "" : by).append(text);
+}
+
+void PutNotes(const PresetTarget& engine, const DerivedLight& light, EngineFigure& figure) {
   for (const TypedNote& row : engine.notes) {
     const DerivedField* field = light.Find(row.field);
     if (field == nullptr) continue;
-    note += (note.empty() ? "" : "; ") + std::string(row.before);
-    if (row.shows_number) note += TextOf(*field, kColorDigits);
-    note += row.after;
+    const std::string value =
+        row.shows_number ? TextOf(*field, kColorDigits, row.factor) + std::string(row.after)
+                         : std::string(row.after);
+    const std::string text = std::string(row.before) + value;
+    if (row.part == TypedPart::kColor) figure.color = value;
+    if (row.part == TypedPart::kEarlierVersions) figure.before = text;
+    if (row.part == TypedPart::kWith) figure.with = text;
+    if (row.part == TypedPart::kCone) Append(text, ", ", figure.cone);
+    Append(text, "; ", figure.note);
   }
-  if (!light.substitution.empty()) note += (note.empty() ? "" : "; ") + light.substitution;
-  return note;
+  Append(light.substitution, "; ", figure.note);
+}
+
+// Where its light starts, if that shows in the nearest reading.
+std::string PlaceText(const FittedLight& lamp) {
+  constexpr double kShows = 0.05;
+  double nearest_m = 1.0;
+  for (const ResidualRow& row : lamp.residuals) {
+    if (row.used && row.distance_m) nearest_m = std::min(nearest_m, *row.distance_m);
+  }
+  const double offset_m = EffectiveOffset_m(lamp);
+  if (2.0 * std::abs(offset_m) < kShows * nearest_m) return "";
+  return "stands " + RoundedText(100.0 * std::abs(offset_m), 2) + " cm " +
+         (offset_m > 0.0 ? "behind" : "before") + " the point its distances were measured from";
 }
 
 void AddFigure(const std::string& lamp, const PresetTarget& engine, const DerivedLight& light,
@@ -52,8 +73,14 @@ void AddFigure(const std::string& lamp, const PresetTarget& engine, const Derive
   for (const TypedNumber& row : engine.numbers) {
     const DerivedField* field = light.Find(row.field);
     if (field == nullptr || !(row.type.empty() || row.type == light.type)) continue;
-    figures.push_back({lamp, std::string(engine.title), light.type + " · " + std::string(row.label),
-                       TextOf(*field, kDigits), std::string(row.unit), NoteOf(engine, light)});
+    EngineFigure figure;
+    figure.light = lamp;
+    figure.engine = engine.title;
+    figure.field = light.type + " · " + std::string(row.label);
+    figure.value = TextOf(*field, kDigits);
+    figure.unit = row.unit;
+    PutNotes(engine, light, figure);
+    figures.push_back(std::move(figure));
     return;
   }
 }
@@ -67,8 +94,14 @@ void AddWhite(const FittedLight& lamp, std::vector<EngineFigure>& figures) {
   if (!punctual) return;
   const PunctualLight& light = punctual->front();
   const std::string unit = light.type == PunctualType::kDirectional ? "lx" : "cd";
-  figures.push_back({lamp.name, "Any engine", "colour left white",
-                     RoundedText(light.photometric, kDigits), unit, light.substitution});
+  EngineFigure figure;
+  figure.light = lamp.name;
+  figure.engine = "Any engine";
+  figure.field = "colour left white";
+  figure.value = RoundedText(light.photometric, kDigits);
+  figure.unit = unit;
+  figure.note = light.substitution;
+  figures.push_back(std::move(figure));
 }
 
 // ---- all engines ----
@@ -124,6 +157,13 @@ EngineAnswers EngineAnswersOf(const LightFile& lights, const Pictures& environme
     AddWhite(lamp, answers.figures);
     for (const EngineExport& exported : exports) {
       AddFigure(lamp.name, *exported.engine, exported.derived[i], answers.figures);
+    }
+    if (const std::string place = PlaceText(lamp); !place.empty()) {
+      for (EngineFigure& figure : answers.figures) {
+        if (figure.light != lamp.name) continue;
+        figure.place = place;
+        Append(place, "; ", figure.note);
+      }
     }
   }
   answers.parity = ParityOf(lights, exports, environments);
