@@ -34,7 +34,8 @@ std::string CheckAngles(const std::vector<double>& angles, double low, double hi
              ShortestText(high) + " degrees";
     }
     if (i > 0 && !(angles[i] > angles[i - 1])) {
-      return what + " " + std::to_string(i + 1) + " does not exceed the one before it";
+      return what + "s must increase: " + ShortestText(angles[i]) + " after " +
+             ShortestText(angles[i - 1]);
     }
   }
   return {};

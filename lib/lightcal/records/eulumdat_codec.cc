@@ -99,6 +99,16 @@ class EulumdatReader {
     for (std::size_t i = 0; i < count && !error_; ++i) out.push_back(Number(what));
     return out;
   }
+  // Of the list of angles last read, those from `first` on.
+  void CheckIncrease(const std::vector<double>& angles, std::size_t first, std::size_t end,
+                     std::string_view which, int line_before) {
+    for (std::size_t i = first + 1; i < end && !error_; ++i) {
+      if (angles[i] > angles[i - 1]) continue;
+      error_ = records::AnglesMustIncrease(where_, which, angles[i - 1], angles[i],
+                                           line_before + static_cast<int>(i) + 1)
+                   .value();
+    }
+  }
   void Fail(const std::string& why) {
     if (!error_) error_ = BadPhotometric(where_, why).value();
   }
@@ -129,7 +139,13 @@ class EulumdatReader {
     conversion_ = NumberOrZero("the conversion factor for intensities");
     if (conversion_ == 0.0) conversion_ = 1.0;
     if (conversion_ < 0.0) Fail("the conversion factor for intensities is below 0");
-    (void)NumberOrZero("the tilt in measurement");
+    if (const double tilt = NumberOrZero("the tilt in measurement"); tilt != 0.0) {
+      Warn("measured_tilted",
+           "was measured tilted by " + ShortestText(tilt) + " degrees (line " +
+               std::to_string(lines_.number()) +
+               "). Its angles are used as they stand: gamma 0 is down in that position, not the "
+               "lamp's own axis; aim that way, or turn the aim by the tilt");
+    }
   }
 
   void TakeDate(const std::string& line) {
@@ -217,9 +233,20 @@ class EulumdatReader {
   }
 
   void ReadIntensities() {
-    const std::vector<double> c = List(mc_, "a C angle");
-    grid_.vertical_deg = List(ng_, "a gamma angle");
     const StoredPlanes stored = PlanesOf(symmetry_, mc_);
+    const int line_before_c = lines_.number();
+    const std::vector<double> c = List(mc_, "a C angle");
+    // Planes that are not stored may bear any angle; those stored may run through C0.
+    if (!error_) {
+      CheckIncrease(c, stored.first, std::min(mc_, stored.first + stored.count), "C",
+                    line_before_c);
+      if (stored.first > 0) {
+        CheckIncrease(c, 0, stored.first + stored.count - mc_, "C", line_before_c);
+      }
+    }
+    const int line_before_gamma = lines_.number();
+    grid_.vertical_deg = List(ng_, "a gamma angle");
+    if (!error_) CheckIncrease(grid_.vertical_deg, 0, ng_, "gamma", line_before_gamma);
     grid_.candela = List(stored.count * ng_, "an intensity");
     if (error_) return;
     const double scale = header_.lamp_flux->value() / 1000.0 * conversion_;

@@ -7,6 +7,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal/records/ies_numbers.h"
 #include "lightcal/records/photometric_codec.h"
 #include "lightcal/records/photometric_text.h"
 
@@ -17,6 +18,7 @@ using records::BadPhotometric;
 using records::HeaderText;
 using records::kLeastLumens;
 using records::kMostLumens;
+using records::Numbers;
 
 constexpr std::string_view kTilt = "TILT=";
 constexpr double kMostAngles = 1e6;
@@ -38,92 +40,6 @@ bool StartsWithTilt(std::string_view line) {
   return line.size() >= kTilt.size() &&
          LowerAscii(line.substr(0, kTilt.size())) == LowerAscii(kTilt);
 }
-
-// ---- numbers behind the header ----
-
-class Numbers {
- public:
-  // Commas part numbers, or stand in them as decimal points.
-  enum class Commas : std::uint8_t { kPart, kDecimal };
-  Numbers(std::string_view text, std::string_view where, Commas commas = Commas::kPart)
-      : text_(text), where_(where), decimal_(commas == Commas::kDecimal) {}
-
-  // The next number; what it is goes into the message. Once one fails, all fail.
-  double Take(std::string_view what) {
-    SkipBlanks();
-    if (error_) return 0.0;
-    if (text_.empty()) {
-      Fail(std::string(what) + " is missing: the file ends too early");
-      return 0.0;
-    }
-    const std::size_t end = std::min(text_.find_first_of(Blanks()), text_.size());
-    const std::string_view token = text_.substr(0, end);
-    text_.remove_prefix(end);
-    constexpr std::size_t kLongestNumber = 64;
-    const auto value =
-        token.size() <= kLongestNumber ? ParseNumber(token, Decimal(token)) : std::nullopt;
-    if (!value) {
-      Fail(std::string(what) + " is \"" + HeaderText(token.substr(0, 40)) + "\", no number");
-    }
-    return value.value_or(0.0);
-  }
-  int Whole(std::string_view what, double least, double most) {
-    const double value = Take(what);
-    if (!error_ && (value < least || value > most || value != std::floor(value))) {
-      Fail(std::string(what) + " is " + ShortestText(value) + "; a whole number from " +
-           ShortestText(least) + " to " + ShortestText(most) + " is needed");
-    }
-    return error_ ? 0 : static_cast<int>(value);
-  }
-  double Positive(std::string_view what) {
-    const double value = Take(what);
-    if (!error_ && !(value > 0.0)) Fail(std::string(what) + " must be above 0");
-    return value;
-  }
-  std::vector<double> List(std::size_t count, std::string_view what) {
-    std::vector<double> out;
-    // Each number takes two characters at least, so that a count cannot claim memory.
-    if (!error_ && count > text_.size() / 2 + 1) {
-      Fail(std::to_string(count) + " numbers (" + std::string(what) +
-           ") are announced, the file is too short for them");
-    }
-    if (error_) return out;
-    out.reserve(count);
-    for (std::size_t i = 0; i < count && !error_; ++i) out.push_back(Take(what));
-    return out;
-  }
-
-  void SkipBlanks() {
-    text_.remove_prefix(std::min(text_.find_first_not_of(Blanks()), text_.size()));
-  }
-  [[nodiscard]] bool AtEnd() {
-    SkipBlanks();
-    return text_.empty();
-  }
-  void Fail(const std::string& why) {
-    if (!error_) error_ = BadPhotometric(where_, why).value();
-  }
-  [[nodiscard]] const std::optional<Error>& error() const { return error_; }
-  // Whether a number comes next.
-  [[nodiscard]] bool NumberFollows() {
-    SkipBlanks();
-    Numbers ahead = *this;
-    (void)ahead.Take("");
-    return !text_.empty() && !ahead.error_;
-  }
-
- private:
-  [[nodiscard]] std::string_view Blanks() const {
-    return decimal_ ? " \t\r\n\x1a" : " \t\r\n\x1a,";
-  }
-  [[nodiscard]] bool Decimal(std::string_view token) const {
-    return decimal_ && token.find(',') != std::string_view::npos;
-  }
-  std::string_view text_;
-  std::string_view where_;
-  std::optional<Error> error_;
-  bool decimal_ = false;
-};
 
 // ---- the header ----
 
@@ -295,9 +211,8 @@ void TakeBody(Numbers& numbers, Edition edition, std::string_view where, Body& b
     header.lamp_flux = lamps.flux;
   }
   body.grid.type = static_cast<GoniometerType>(type - 1);
-  body.grid.vertical_deg = numbers.List(static_cast<std::size_t>(vertical), "a vertical angle");
-  body.grid.horizontal_deg =
-      numbers.List(static_cast<std::size_t>(horizontal), "a horizontal angle");
+  body.grid.vertical_deg = numbers.Angles(static_cast<std::size_t>(vertical), "vertical");
+  body.grid.horizontal_deg = numbers.Angles(static_cast<std::size_t>(horizontal), "horizontal");
   body.grid.candela = numbers.List(
       static_cast<std::size_t>(vertical) * static_cast<std::size_t>(horizontal), "an intensity");
   for (double& candela : body.grid.candela) candela *= factor;
@@ -313,9 +228,9 @@ struct TakenBody {
 };
 Result<TakenBody> TakeNumbers(Body header, std::string_view text, std::string_view tilt_word,
                               Edition edition, std::string_view where, const TiltText& tilt,
-                              Numbers::Commas commas) {
+                              Numbers::Commas commas, int first_line) {
   TakenBody taken{std::move(header)};
-  Numbers numbers(text, where, commas);
+  Numbers numbers(text, where, commas, first_line);
   const std::string word = LowerAscii(tilt_word);
   if (word == "include") {
     taken.body.header.tilt = TakeTilt(numbers);
@@ -362,7 +277,8 @@ Result<ReadPhotometric> IesFromText(std::string_view text, std::string_view wher
   const auto tilt_word = TakeHeader(lines, body.header, edition);
   if (!tilt_word) return BadPhotometric(where, "has no TILT= line, which every IES file has");
   const auto take = [&](Numbers::Commas commas) {
-    return TakeNumbers(body, lines.rest(), *tilt_word, edition, where, tilt, commas);
+    return TakeNumbers(body, lines.rest(), *tilt_word, edition, where, tilt, commas,
+                       lines.number() + 1);
   };
   auto taken = take(Numbers::Commas::kPart);
   // LM-63 parts numbers by blanks or commas. Some programs write decimal commas: what they give

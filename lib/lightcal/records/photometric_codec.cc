@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/records/photometric_checks.h"
 
 namespace lightcal {
 namespace {
@@ -50,7 +51,9 @@ Result<ReadPhotometric> PhotometricFromText(std::string_view text, std::string_v
     return Refused("unknown_format", std::string(where),
                    "is neither IES LM-63 (no TILT= line) nor EULUMDAT: " + read.error().message);
   }
-  if (read) CheckFlux(*read, where);
+  if (!read) return read;
+  CheckFlux(*read, where);
+  records::WarnOfGaps(read->file.table.grid(), where, read->warnings);
   return read;
 }
 

@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxPhotometricBytes = 32U << 20U;
 
 struct ReadPhotometric {
   PhotometricFile file;
-  Warnings warnings;  // reserved_field, tilt_missing, flux_disagrees, lamp_sets, ...
+  Warnings warnings;  // reserved_field, tilt_missing, flux_disagrees, lamp_sets, no_axis, ...
 };
 
 // The text of the file beside an IES file that its TILT=name names. Names with a path in them are

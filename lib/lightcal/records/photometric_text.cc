@@ -126,4 +126,11 @@ tl::unexpected<Error> BadPhotometric(std::string_view where, const std::string& 
   return Refused("bad_photometric", std::string(where), why);
 }
 
+tl::unexpected<Error> AnglesMustIncrease(std::string_view where, std::string_view which,
+                                         double before, double angle, int line) {
+  return Refused("bad_table", std::string(where),
+                 std::string(which) + " angles must increase: " + ShortestText(angle) + " after " +
+                     ShortestText(before) + ", line " + std::to_string(line));
+}
+
 }  // namespace lightcal::records

@@ -46,5 +46,9 @@ inline constexpr std::string_view kEulumdatLab = " / ";
 inline constexpr int kEulumdatDirectRatios = 10;
 
 [[nodiscard]] tl::unexpected<Error> BadPhotometric(std::string_view where, const std::string& why);
+// Of "vertical", "gamma" ... angles, one of which does not exceed the one before it: bad_table.
+[[nodiscard]] tl::unexpected<Error> AnglesMustIncrease(std::string_view where,
+                                                       std::string_view which, double before,
+                                                       double angle, int line);
 
 }  // namespace lightcal::records
