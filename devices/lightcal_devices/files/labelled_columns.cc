@@ -24,6 +24,25 @@ const Row* LabelledColumns::Find(std::string_view label) const {
   return row == rows_.end() ? nullptr : &*row;
 }
 
+Result<void> LabelledColumns::FindDecimals(const SpectralRows& spectral, char delimiter) {
+  bool several = false, point = false;
+  for (const Row* row : spectral.rows) {
+    for (std::size_t column = 1; column < row->cells.size(); ++column) {
+      const std::string& cell = row->cells[column];
+      point = point || cell.find('.') != std::string::npos;
+      several = several || column > 1;
+      const bool comma = cell.find(',') != std::string::npos && ParseNumber(cell, true);
+      if (delimiter != ',' && comma) decimal_comma_ = true;
+    }
+  }
+  if (delimiter != ',' || !several || point) return {};
+  return Refused(
+      "decimals_ambiguous", file_name_,
+      "commas part its cells, and its spectrum has no decimal point: its numbers seem to "
+      "have decimal commas, which cannot be told from those between cells. Export it "
+      "with decimal points, or with semicolons or tabs between the cells");
+}
+
 std::string_view LabelledColumns::Value(std::string_view label, std::size_t column) const {
   const Row* row = Find(label);
   return row == nullptr ? std::string_view() : CellAt(*row, column);

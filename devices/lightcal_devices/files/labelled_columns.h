@@ -32,6 +32,11 @@ class LabelledColumns {
   LabelledColumns(std::vector<Row> rows, bool decimal_comma, std::string_view file_name)
       : rows_(std::move(rows)), decimal_comma_(decimal_comma), file_name_(file_name) {}
 
+  // Decimal commas where the spectrum has them and another character parts the cells.
+  // Refused: decimals_ambiguous, where commas part cells and every one of several values of the
+  // spectrum is of digits alone, as halves of 0,5 are.
+  [[nodiscard]] Result<void> FindDecimals(const SpectralRows& spectral, char delimiter);
+
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
   [[nodiscard]] std::string_view file_name() const { return file_name_; }
   // The cell of a labelled row, "" where there is none.

@@ -34,6 +34,14 @@ std::optional<double> SampleWavelength(std::string_view label) {
   return ParseNumber(label);
 }
 
+// Semicolons or tabs where the computer's decimals are commas.
+char DelimiterOfSamples(std::string_view text) {
+  const std::size_t sample = text.find(kSample);
+  if (sample == std::string_view::npos) return ',';
+  const std::string_view line = text.substr(sample);
+  return DelimiterOf(line.substr(0, line.find('\n')));
+}
+
 // The 5 nm and the 1 nm block begin at the same wavelength; the one with more samples is taken.
 SpectralRows FinestBlock(const std::vector<Row>& rows) {
   SpectralRows finest;
@@ -80,10 +88,14 @@ bool IsSekonicCsv(std::string_view text) {
 }
 
 Result<ImportedFile> ReadSekonicCsv(std::string_view text, std::string_view name) {
-  auto rows = ReadRows(text, ',');
+  const char delimiter = DelimiterOfSamples(text);
+  auto rows = ReadRows(text, delimiter);
   if (!rows) return Propagate(std::move(rows));
-  const LabelledColumns table(std::move(*rows), false, name);
+  LabelledColumns table(std::move(*rows), false, name);
   const SpectralRows spectral = FinestBlock(table.rows());
+  if (auto found = table.FindDecimals(spectral, delimiter); !found) {
+    return Propagate(std::move(found));
+  }
   const auto columns = LabelledColumns::MeasuredColumns(spectral);
   if (columns.empty()) {
     return Refused("bad_spectrum", std::string(name),

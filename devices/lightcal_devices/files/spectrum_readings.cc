@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "lightcal/colorimetry/cct.h"
@@ -19,6 +20,16 @@ constexpr double kXyTolerance = 0.003;
 
 bool IsDark(const Spectrum& spectrum) {
   return std::ranges::none_of(spectrum.values, [](double value) { return value > 0.0; });
+}
+
+// A file may list its samples from red to blue.
+void ReverseFalling(Spectrum& spectrum) {
+  const auto& nm = spectrum.wavelengths_nm;
+  const bool falls = nm.size() > 1 && nm.size() == spectrum.values.size() &&
+                     std::ranges::adjacent_find(nm, std::less_equal<>()) == nm.end();
+  if (!falls) return;
+  std::ranges::reverse(spectrum.wavelengths_nm);
+  std::ranges::reverse(spectrum.values);
 }
 
 Result<void> CheckSamples(const FoundSpectrum& found) {
@@ -159,6 +170,7 @@ Result<ImportedFile> ImportedFromSpectra(std::string_view format, std::vector<Fo
   file.warnings = std::move(warnings);
   bool all_dark = true;
   for (FoundSpectrum& one : found) {
+    ReverseFalling(one.imported.spectrum);
     if (auto samples = CheckSamples(one); !samples) return Propagate(std::move(samples));
     const auto tristimulus = Tristimulus(one);
     if (!tristimulus) return tl::unexpected(tristimulus.error());

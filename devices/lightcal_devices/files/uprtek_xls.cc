@@ -13,6 +13,17 @@ namespace {
 constexpr HeaderLabels kUprtekLabels{"LUX", "CCT", "Duv", "x", "y",  "X",
                                      "Y",   "Z",   "CRI", "R", "Rf", "Rg"};
 
+constexpr std::string_view kFirstLabel = "Model Name";
+
+// What stands after its first label: the instrument writes tabs; a spreadsheet that saved it again
+// may have put semicolons or commas.
+char DelimiterAfterFirstLabel(std::string_view text) {
+  for (const char delimiter : {'\t', ';', ','}) {
+    if (HasLineStarting(text, std::string(kFirstLabel) + delimiter)) return delimiter;
+  }
+  return '\0';
+}
+
 SpectralRows FindSpectralRows(const std::vector<Row>& rows) {
   SpectralRows spectral;
   for (const Row& row : rows) {
@@ -30,14 +41,19 @@ SpectralRows FindSpectralRows(const std::vector<Row>& rows) {
 }  // namespace
 
 bool IsUprtekXls(std::string_view text) {
-  return HasLineStarting(text, "Model Name\t") && HasLineStarting(text, "LUX\t");
+  const char delimiter = DelimiterAfterFirstLabel(text);
+  return delimiter != '\0' && HasLineStarting(text, std::string("LUX") + delimiter);
 }
 
 Result<ImportedFile> ReadUprtekXls(std::string_view text, std::string_view name) {
-  auto rows = ReadRows(text, '\t');
+  const char delimiter = DelimiterAfterFirstLabel(text);
+  auto rows = ReadRows(text, delimiter);
   if (!rows) return Propagate(std::move(rows));
-  const LabelledColumns table(std::move(*rows), false, name);
+  LabelledColumns table(std::move(*rows), false, name);
   const SpectralRows spectral = FindSpectralRows(table.rows());
+  if (auto found = table.FindDecimals(spectral, delimiter); !found) {
+    return Propagate(std::move(found));
+  }
   const auto columns = LabelledColumns::MeasuredColumns(spectral);
   if (columns.empty()) {
     return Refused("bad_spectrum", std::string(name),
