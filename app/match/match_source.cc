@@ -209,7 +209,9 @@ Result<MatchLight> ReadMatchLight(const MatchLightWords& words, Console& console
 Result<GelSet> ReadGels(const std::string& file, Console& console) {
   if (!file.empty()) {
     NoteInput(file);
-    return devices::ReadGelFile(file);
+    auto set = devices::ReadGelFile(file);
+    if (set) console.Warn(set->warnings);
+    return set;
   }
   console.Warn({"demonstration_gels", "gels",
                 "no gel file is named: these are 22 filters by formula that nobody makes; give "

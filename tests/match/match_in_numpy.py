@@ -68,6 +68,11 @@ def judge(lamp, target, blue, words, deciding, nodes):
     keys = {s: deciding(lamp * through[s]) for s in stacks}
     keys = {s: (np.floor(d / .05), len(s), stops_of(s), d) for s, d in keys.items()}
     ranked = sorted((key, s) for s, key in keys.items())
+    # A step's edge parts nobody: fewer gels go before all more that are not .05 nearer.
+    for i in range(1, len(ranked)):
+        own = ranked[i][0]
+        before = next((k for k in range(i) if own[1] < ranked[k][0][1] and own[3] <= ranked[k][0][3] + .05), i)
+        ranked.insert(before, ranked.pop(i))
     answer = match(*words, "-n", 8, "--reach", 1)
     assert answer["stacks"] == len(stacks) == 861
     listed = [tuple(m["gels"]) for m in answer["matches"]]
@@ -82,8 +87,8 @@ def judge(lamp, target, blue, words, deciding, nodes):
             break
     wanted = [stack for _, stack in front]
     if not any(len(stack) <= 1 for stack in wanted):
-        wanted[-1] = next(s for _, s in ranked if len(s) == 1)
-        wanted.sort(key=keys.get)
+        single = next(s for _, s in ranked if len(s) == 1)
+        wanted = [s for _, s in ranked if s in {*wanted[:-1], single}]
     assert listed == wanted, f"front: lightcal {listed}, numpy {wanted}"
     for m in answer["matches"] + [answer["unfiltered"]]:
         light = lamp * through[tuple(m["gels"])]

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -32,6 +33,10 @@ constexpr const char* kGelForms =
     "a row a filter with columns filter, name, 405nm ... 700nm (transmittance 0 to 1), or a column "
     "a filter beside wavelength_nm, \"L204 transmittance\", or a TM-27 file of transmittance";
 
+bool SaysPercent(std::string_view lower) {
+  return lower.find("percent") != lower.npos || lower.find('%') != lower.npos;
+}
+
 // "405nm" -> 405; "405nm_percent" -> 405 and a hundredth.
 struct WavelengthColumn {
   double nm = 0.0, scale = 1.0;
@@ -43,19 +48,51 @@ std::optional<WavelengthColumn> WavelengthColumnOf(std::string_view name) {
   const auto nm = ParseNumber(TrimBlanks(std::string_view(lower).substr(0, unit)));
   if (!nm) return std::nullopt;
   const std::string rest = lower.substr(unit + 2);
-  const bool percent = rest.find("percent") != std::string::npos || rest.find('%') != rest.npos;
-  if (!percent && !TrimBlanks(rest).empty()) return std::nullopt;
+  const bool percent = SaysPercent(rest);
+  const bool fraction = rest == "_fraction";
+  if (!percent && !fraction && !TrimBlanks(rest).empty()) return std::nullopt;
   return WavelengthColumn{*nm, percent ? kPercent : 1.0};
 }
 
+// "45.2%" -> 45.2, and that its sign says so.
+struct GelCell {
+  double value = 0.0;
+  bool percent = false;
+};
+std::optional<GelCell> GelCellOf(std::string_view cell, bool decimal_comma) {
+  std::string_view content = TrimBlanks(cell);
+  const bool percent = content.ends_with('%');
+  if (percent) content.remove_suffix(1);
+  const auto value = ParseNumber(content, decimal_comma);
+  return value ? std::optional(GelCell{*value, percent}) : std::nullopt;
+}
+
+// Cells with and without a percent sign in one filter: which of the two the others are, nobody
+// says.
+tl::unexpected<Error> PartlyPercent(std::string_view where, const Gel& gel) {
+  return Refused("units_ambiguous", std::string(where) + ", " + GelTitle(gel),
+                 "has a percent sign in some of its cells only; write it in all or in none");
+}
+
+// A table may list its wavelengths from red to blue.
+void ReverseFalling(Gel& gel) {
+  const auto& nm = gel.wavelengths_nm;
+  const bool falls =
+      nm.size() > 1 && std::ranges::adjacent_find(nm, std::less_equal<>()) == nm.end();
+  if (!falls) return;
+  std::ranges::reverse(gel.wavelengths_nm);
+  std::ranges::reverse(gel.transmittance);
+}
+
 // Percentages that nobody called so are not guessed at.
-Result<void> CheckGel(const Gel& gel, std::string_view where, bool percent_said) {
+Result<void> CheckGel(Gel& gel, std::string_view where, bool percent_said) {
   if (!percent_said && !gel.transmittance.empty() &&
       *std::ranges::max_element(gel.transmittance) > 1.5) {
     return Refused("units_ambiguous", std::string(where) + ", " + GelTitle(gel),
                    "has values above 1; if they are percent, say so in the columns' names "
                    "(405nm_percent, \"L204 transmittance_percent\")");
   }
+  ReverseFalling(gel);
   if (const std::string fault = FaultOf(gel); !fault.empty()) {
     return BadGels(std::string(where) + ", " + GelTitle(gel), fault);
   }
@@ -113,18 +150,21 @@ Result<GelSet> RowsOfGels(const std::vector<Row>& rows, bool decimal_comma, std:
     if (gel.id.empty()) gel.id = gel.name;
     if (gel.id.empty()) return BadGels(where, "has neither a filter's number nor a name");
     bool percent = false;
+    std::size_t signs = 0;
     for (const auto& [column, wavelength] : table.wavelengths) {
       const std::string_view cell = CellAt(row, column);
       if (TrimBlanks(cell).empty()) continue;  // the maker gives none there
-      const auto value = ParseNumber(cell, decimal_comma);
+      const auto value = GelCellOf(cell, decimal_comma);
       if (!value) {
         return BadGels(where, "'" + std::string(cell.substr(0, 40)) + "' in the column " +
                                   rows.front().cells[column] + " is no number");
       }
-      percent = percent || wavelength.scale != 1.0;
+      if (value->percent) ++signs;
+      percent = percent || wavelength.scale != 1.0 || value->percent;
       gel.wavelengths_nm.push_back(wavelength.nm);
-      gel.transmittance.push_back(*value * wavelength.scale);
+      gel.transmittance.push_back(value->value * (value->percent ? kPercent : wavelength.scale));
     }
+    if (signs > 0 && signs < gel.transmittance.size()) return PartlyPercent(where, gel);
     gel.tungsten = ClaimOf(table, row, 0);
     gel.daylight = ClaimOf(table, row, 3);
     if (auto checked = CheckGel(gel, where, percent); !checked)
@@ -136,35 +176,55 @@ Result<GelSet> RowsOfGels(const std::vector<Row>& rows, bool decimal_comma, std:
 
 // ---- a column a filter ----
 
+// Where in a column's name what it holds begins: "transmittance", or a "T%", "%T", "T (%)" or "%"
+// that ends it.
+std::optional<std::size_t> QuantityIn(std::string_view lower) {
+  constexpr std::string_view kQuantity = "transmittance";
+  if (const std::size_t at = lower.find(kQuantity); at != lower.npos) return at;
+  for (const std::string_view ending : {"t%", "%t", "t (%)", "t [%]", "t(%)", "t[%]"}) {
+    if (!lower.ends_with(ending)) continue;
+    const std::size_t at = lower.size() - ending.size();
+    const bool own_word = at == 0 || lower[at - 1] == ' ' || lower[at - 1] == '_';
+    if (own_word) return at;
+  }
+  for (const std::string_view ending : {"(%)", "[%]", "%"}) {
+    if (lower.ends_with(ending)) return lower.size() - ending.size();
+  }
+  return std::nullopt;
+}
+
 Result<GelSet> ColumnsOfGels(const std::vector<Row>& rows, bool decimal_comma,
                              std::size_t wavelength, std::string_view name) {
-  constexpr std::string_view kQuantity = "transmittance";
   GelSet set;
   const Row& header = rows.front();
   for (std::size_t column = 0; column < header.cells.size(); ++column) {
     const std::string written(TrimBlanks(header.cells[column]));
     const std::string lower = LowerAscii(written);
-    const std::size_t quantity = lower.find(kQuantity);
+    const auto quantity = QuantityIn(lower);
     if (column == wavelength) continue;
-    if (quantity == std::string::npos) {
+    if (!quantity) {
       return Refused("units_ambiguous", std::string(name) + ", column " + written,
                      "does not say what it holds; write \"" + written + " transmittance\" or \"" +
                          written + " transmittance_percent\"");
     }
-    const bool percent = lower.find("percent") != lower.npos || lower.find('%') != lower.npos;
+    bool percent = SaysPercent(lower);
+    std::size_t signs = 0;
     Gel gel;
-    gel.id = TrimBlanks(written.substr(0, quantity));
+    gel.id = TrimBlanks(written.substr(0, *quantity));
     while (!gel.id.empty() && (gel.id.back() == '_' || gel.id.back() == ' ')) gel.id.pop_back();
     if (gel.id.empty()) gel.id = std::filesystem::path(name).stem().string();
     for (std::size_t r = 1; r < rows.size(); ++r) {
       const auto nm = ParseNumber(CellAt(rows[r], wavelength), decimal_comma);
-      const auto value = ParseNumber(CellAt(rows[r], column), decimal_comma);
+      const auto value = GelCellOf(CellAt(rows[r], column), decimal_comma);
       if (!nm || !value) {
         return BadGels(files::AtLine(name, rows[r].line), "holds no number for " + written);
       }
       gel.wavelengths_nm.push_back(*nm);
-      gel.transmittance.push_back(*value * (percent ? kPercent : 1.0));
+      if (value->percent) ++signs;
+      gel.transmittance.push_back(value->value * (percent || value->percent ? kPercent : 1.0));
     }
+    if (signs > 0 && signs < gel.transmittance.size()) return PartlyPercent(name, gel);
+    percent = percent || signs > 0;
     if (auto checked = CheckGel(gel, name, percent); !checked) return Propagate(std::move(checked));
     set.gels.push_back(std::move(gel));
   }
@@ -201,8 +261,14 @@ Result<GelSet> GelsOfTable(std::string_view text, std::string_view name) {
   });
   if (rows->size() < 2)
     return BadGels(name, "holds no filter; understood are " + std::string(kGelForms));
-  const bool decimal_comma = files::HasDecimalComma(std::span<const Row>(*rows).subspan(1),
-                                                    delimiter, [](std::size_t) { return true; });
+  std::vector<Row> unsigned_cells(rows->begin() + 1, rows->end());
+  for (Row& row : unsigned_cells) {
+    for (std::string& cell : row.cells) {
+      if (cell.ends_with('%')) cell.pop_back();
+    }
+  }
+  const bool decimal_comma =
+      files::HasDecimalComma(unsigned_cells, delimiter, [](std::size_t) { return true; });
   const auto& header = rows->front().cells;
   const auto wavelength = std::ranges::find_if(header, [](const std::string& cell) {
     const std::string lower = LowerAscii(TrimBlanks(cell));
@@ -218,13 +284,32 @@ Result<GelSet> GelsOfTable(std::string_view text, std::string_view name) {
   return BadGels(name, "is no table of filters; understood are " + std::string(kGelForms));
 }
 
+// Dark filters under names that say neither percent nor fraction may be either: it is said.
+void SayIfReadAsFractions(std::string_view text, std::string_view name, GelSet& set) {
+  constexpr double kDark = 0.5;
+  const std::string lower = LowerAscii(text);
+  if (SaysPercent(lower) || lower.find("fraction") != lower.npos) return;
+  double largest = 0.0;
+  for (const Gel& gel : set.gels) largest = std::max(largest, std::ranges::max(gel.transmittance));
+  if (largest >= kDark) return;
+  set.warnings.push_back(
+      {"gels_as_fractions", std::string(name),
+       "its columns do not say whether they are percent; read as parts of 1, its brightest filter "
+       "passes " +
+           PercentText(largest, 3) +
+           " at most. If they are percent, say so in the columns' names (405nm_percent, \"L204 "
+           "transmittance_percent\"), else write transmittance_fraction, 405nm_fraction"});
+}
+
 }  // namespace
 
 Result<GelSet> GelsFromText(std::string_view text, std::string_view name) {
   const auto plain = files::TextFromBytes(text, name);
   if (!plain) return tl::unexpected(plain.error());
-  auto set = files::IsTm27Spdx(*plain) ? SpdxGels(*plain, name) : GelsOfTable(*plain, name);
+  const bool spdx = files::IsTm27Spdx(*plain);
+  auto set = spdx ? SpdxGels(*plain, name) : GelsOfTable(*plain, name);
   if (!set) return set;
+  if (!spdx) SayIfReadAsFractions(*plain, name, *set);
   set->source = name;
   for (std::size_t i = 0; i < set->gels.size(); ++i) {
     const auto same =

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -40,6 +41,20 @@ bool ComesFirst(const Match& a, const Match& b) {
   return key(a) < key(b);
 }
 
+// Fewer gels, and a difference that nobody tells from the other's though a step may end between.
+bool NeedsFewerForTheSame(const Match& a, const Match& b) {
+  return a.gels.size() < b.gels.size() && DecidingOf(a) <= DecidingOf(b) + kNoticedDifference;
+}
+
+void Rank(std::vector<Match>& all) {
+  std::ranges::sort(all, ComesFirst);
+  for (auto one = all.begin(); one != all.end(); ++one) {
+    const auto before = std::find_if(
+        all.begin(), one, [&](const Match& other) { return NeedsFewerForTheSame(*one, other); });
+    std::rotate(before, one, std::next(one));
+  }
+}
+
 // `other` comes later, and has nothing to say for itself.
 bool IsBetteredBy(const Match& other, const Match& better) {
   return better.gels.size() <= other.gels.size() &&
@@ -61,7 +76,7 @@ Front FrontOf(const MatchScene& scene, const StackSearch& search, std::size_t co
         scene.Describe(search.best[static_cast<std::size_t>(i)].gels);
   });
   std::erase_if(all, [&](const Match& one) { return one.delta_uv > scene.request.reach; });
-  std::ranges::sort(all, ComesFirst);
+  Rank(all);
   Front front;
   for (Match& one : all) {
     if (front.matches.size() == count) break;
@@ -73,9 +88,10 @@ Front FrontOf(const MatchScene& scene, const StackSearch& search, std::size_t co
   const bool needs_none = std::ranges::any_of(front.matches, [](const Match& match) {
     return match.gels.empty() && match.ssi >= kMostSsi - kNoticedSsi;
   });
-  // The step of the farthest stack ranked may go on beyond it.
-  const bool step_ended = front.matches.empty() || StepOf(DecidingOf(front.matches.back())) <
-                                                       StepOf(search.best.back().difference);
+  // The step of the farthest stack ranked may go on beyond it, and one of fewer gels follow it.
+  const bool step_ended =
+      front.matches.empty() || StepOf(DecidingOf(front.matches.back()) + kNoticedDifference) <
+                                   StepOf(search.best.back().difference);
   front.whole = (front.matches.size() == count && step_ended) || search.best.size() < ranked ||
                 needs_none || ranked >= kMostRanked;
   return front;
@@ -97,8 +113,9 @@ void AddBestOfOneGel(const MatchScene& scene, std::size_t count, std::vector<Mat
   Match single = BestOfOneGel(scene);
   if (single.delta_uv > scene.request.reach) return;
   if (matches.size() == count) matches.pop_back();
-  const auto after =
-      std::ranges::find_if(matches, [&](const Match& match) { return ComesFirst(single, match); });
+  const auto after = std::ranges::find_if(matches, [&](const Match& match) {
+    return ComesFirst(single, match) || NeedsFewerForTheSame(single, match);
+  });
   matches.insert(after, std::move(single));
 }
 

@@ -90,13 +90,13 @@ struct MatchAnswer {
 // All stacks of at most `most_gels` gels, a gel twice too, are looked at: those that cannot be
 // among the best are left as soon as that is certain, so that the answer is the exhaustive one.
 // Colour decides by the camera's difference, of many cameras by their median, of none by the
-// observer's; in steps of 0.05, within which fewer gels come first, then those that cost less
-// light. A stack is not listed where one before it has no more than 0.05 stops, 1 point of SSI or a
-// gel to lose against it; fewer than `count` are listed where the 4,000 nearest hold no more within
-// `reach` (always the nearest). The same inputs give the same answer on any number of threads.
-// Refused: "unreachable" (the nearest of all stacks is farther than `reach` in u'v': says which it
-// is and what is left), "blind_view", "bad_spectrum", "truncated_spectrum", "coarse_spectrum",
-// "noisy_spectrum".
+// observer's; in steps of 0.05, within which fewer gels come first (before any whose difference is
+// not 0.05 smaller), then those that cost less light. A stack is not listed where one before it has
+// no more than 0.05 stops, 1 point of SSI or a gel to lose against it; fewer than `count` are
+// listed where the 4,000 nearest hold no more within `reach` (always the nearest). The same inputs
+// give the same answer on any number of threads. Refused: "unreachable" (the nearest of all stacks
+// is farther than `reach` in u'v': says which it is and what is left), "blind_view",
+// "bad_spectrum", "truncated_spectrum", "coarse_spectrum", "noisy_spectrum".
 [[nodiscard]] Result<MatchAnswer> MatchLights(const MatchRequest& request,
                                               std::span<const Gel> gels);
 

@@ -31,6 +31,7 @@ struct GelSet {
   std::string source;          // the file, or what these are
   bool demonstration = false;  // analytic filters that nobody makes
   std::vector<Gel> gels;
+  Warnings warnings{};  // gels_as_fractions
 };
 
 // "L204 Full C.T. Orange", or the id alone.
