@@ -113,6 +113,25 @@ Result<Xy> XyOfTemperature(const ColorOptions& options) {
   return xy;
 }
 
+// Numbers that are far from any white as x, y, and near the locus as u', v': a hint, no more.
+std::string HintOfUv(Xy xy) {
+  constexpr double kFarDuv = 0.06;   // saturated as x, y
+  constexpr double kNearDuv = 0.01;  // as white as lamps are
+  constexpr double kLeast_K = 1800.0, kMost_K = 15000.0;
+  const CctResult as_typed = CctFromXy(xy);
+  if (as_typed.valid() || std::abs(as_typed.duv) < kFarDuv) return {};
+  const Xy other = XyFromUv1960({xy.x, xy.y / 1.5});
+  if (!IsPhysicalXy(other)) return {};
+  const CctResult as_uv = CctFromXy(other);
+  const double kelvin = as_uv.temperature.value();
+  if (!as_uv.valid() || std::abs(as_uv.duv) > kNearDuv || kelvin < kLeast_K || kelvin > kMost_K) {
+    return {};
+  }
+  return "note: as x, y this is a saturated colour; as u', v' these numbers are a white of " +
+         RoundedText(kelvin, 3) + " K: if that is what they are, type --xy " +
+         RoundedText(other.x, 4) + "," + RoundedText(other.y, 4);
+}
+
 struct TypedColor {
   Xy xy;
   Xyz xyz;  // at Y = 1 where only a chromaticity was typed
@@ -141,6 +160,9 @@ Result<AnsweredColors> AnswerTyped(const ColorOptions& options, const ColorExtra
   if (!answer) return Propagate(std::move(answer));
   if (!options.xyz.empty()) answer->xyz = color->xyz;
   Warnings warnings;
+  if (!options.xy.empty()) {
+    if (const std::string hint = HintOfUv(color->xy); !hint.empty()) console.Note(hint);
+  }
   answer->findings.noise = NoiseFound(color->xyz, extras, subject, warnings);
   console.Warn(warnings);
   AnsweredColors answered;

@@ -25,16 +25,26 @@ namespace {
 constexpr std::size_t kFlushBytes = 1 << 16;
 constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
 
-// Where x and y stand in a line.
+// Where x, y and a name stand in a line.
 struct Columns {
   std::size_t x = 0, y = 1;
+  std::optional<std::size_t> name;
   bool named = false;
 };
 
 void CellsInto(std::vector<std::string_view>& cells, std::string_view line) {
   cells.clear();
   for (std::size_t from = 0; from <= line.size();) {
-    const std::size_t comma = std::min(line.find(',', from), line.size());
+    // Between quotes a comma parts nothing; a quote in a name is written twice.
+    std::size_t quoted = from;
+    const std::size_t content = line.find_first_not_of(" \t", from);
+    if (content != std::string_view::npos && line[content] == '"') {
+      quoted = std::min(line.find('"', content + 1), line.size());
+      while (quoted + 1 < line.size() && line[quoted + 1] == '"') {
+        quoted = std::min(line.find('"', quoted + 2), line.size());
+      }
+    }
+    const std::size_t comma = std::min(line.find(',', quoted), line.size());
     cells.push_back(TrimBlanks(line.substr(from, comma - from)));
     from = comma + 1;
   }
@@ -47,18 +57,31 @@ std::optional<Columns> NamedColumns(std::string_view line) {
   const auto x = std::ranges::find(cells, "x");
   const auto y = std::ranges::find(cells, "y");
   if (x == cells.end() || y == cells.end()) return std::nullopt;
-  return Columns{static_cast<std::size_t>(x - cells.begin()),
-                 static_cast<std::size_t>(y - cells.begin()), true};
+  const auto name =
+      std::ranges::find_if(cells, [](std::string_view cell) { return LowerAscii(cell) == "name"; });
+  const auto at = [&](auto cell) { return static_cast<std::size_t>(cell - cells.begin()); };
+  return Columns{at(x), at(y), name == cells.end() ? std::nullopt : std::optional(at(name)), true};
+}
+
+// A cell's contents without the quotes about them.
+std::string Unquoted(std::string_view cell) {
+  if (cell.size() < 2 || cell.front() != '"' || cell.back() != '"') return std::string(cell);
+  std::string content(cell.substr(1, cell.size() - 2));
+  for (std::size_t at = 0; (at = content.find("\"\"", at)) != std::string::npos; ++at) {
+    content.erase(at, 1);
+  }
+  return content;
 }
 
 struct BatchRow {
   std::string_view typed;  // "x,y" as it stands in the input
+  std::string_view name;   // its cell, quotes included
   Xy xy;
   CctResult cct;
 };
 
 struct Sink {
-  std::function<void()> names;
+  std::function<void(bool with_name)> names;
   std::function<void(const BatchRow&)> row;
 };
 
@@ -80,6 +103,8 @@ class RowBlock {
     if (!x || !y) return Refused("bad_row", Where(number), "x and y must be finite numbers");
     typed_.append(cells_[columns.x]).append(1, ',').append(cells_[columns.y]);
     typed_ends_.push_back(typed_.size());
+    if (columns.name && *columns.name < cells_.size()) names_.append(cells_[*columns.name]);
+    name_ends_.push_back(names_.size());
     colors_.push_back({*x, *y});
     numbers_.push_back(number);
     return colors_.size() < kRowsInBlock ? Result<void>{} : Answer();
@@ -89,17 +114,21 @@ class RowBlock {
   Result<void> Answer() {
     results_.resize(colors_.size());
     CctBatch(colors_, results_);
-    std::size_t from = 0;
+    std::size_t from = 0, name_from = 0;
     for (std::size_t i = 0; i < colors_.size(); ++i) {
       if (results_[i].status == CctStatus::kNotAChromaticity) {
         return NotAChromaticity(Where(numbers_[i]));
       }
       const auto typed = std::string_view(typed_).substr(from, typed_ends_[i] - from);
-      sink_.row({typed, colors_[i], results_[i]});
+      const auto name = std::string_view(names_).substr(name_from, name_ends_[i] - name_from);
+      sink_.row({typed, name, colors_[i], results_[i]});
       from = typed_ends_[i];
+      name_from = name_ends_[i];
     }
     typed_.clear();
     typed_ends_.clear();
+    names_.clear();
+    name_ends_.clear();
     colors_.clear();
     numbers_.clear();
     return {};
@@ -114,8 +143,8 @@ class RowBlock {
   const std::string& name_;
   const Sink& sink_;
   std::vector<std::string_view> cells_;
-  std::string typed_;
-  std::vector<std::size_t> typed_ends_, numbers_;
+  std::string typed_, names_;
+  std::vector<std::size_t> typed_ends_, name_ends_, numbers_;
   std::vector<Xy> colors_;
   std::vector<CctResult> results_;
 };
@@ -132,7 +161,7 @@ Result<void> ForEachRow(std::istream& stream, const std::string& name, const Sin
     if (text.empty()) continue;
     if (const auto named = rows == 0 && !columns.named ? NamedColumns(text) : std::nullopt) {
       columns = *named;
-      sink.names();
+      sink.names(columns.name.has_value());
       continue;
     }
     if (auto added = block.Add(text, columns, number); !added) {
@@ -152,13 +181,15 @@ class Writer {
  public:
   explicit Writer(Console& console) : console_(console) {}
 
-  void Names() {
-    buffer_ += "x,y,cct_K,duv";
+  void Names(bool with_name) {
+    with_name_ = with_name;
+    buffer_ += with_name ? "x,y,cct_K,duv,name" : "x,y,cct_K,duv";
     EndLine();
   }
   void Add(const BatchRow& row) {
     if (console_.json()) {
-      rows_.push_back({{"xy", {row.xy.x, row.xy.y}},
+      rows_.push_back({{"name", Node::UnlessEmpty(Unquoted(row.name))},
+                       {"xy", {row.xy.x, row.xy.y}},
                        {"cct_K", row.cct.valid() ? Node(row.cct.temperature) : Node()},
                        {"duv", row.cct.duv}});
       return;
@@ -167,6 +198,7 @@ class Writer {
     if (row.cct.valid()) AppendShortest(row.cct.temperature.value());
     buffer_ += ',';
     AppendShortest(row.cct.duv);
+    if (with_name_) buffer_.append(1, ',').append(row.name);
     EndLine();
   }
   void Flush() {
@@ -192,13 +224,15 @@ class Writer {
 
   Console& console_;
   std::string buffer_;
+  bool with_name_ = false;
   std::vector<Node> rows_;
 };
 
 Result<void> WriteRows(std::istream& stream, const std::string& name, Console& console) {
   Writer writer(console);
   auto done = ForEachRow(stream, name,
-                         {[&] { writer.Names(); }, [&](const BatchRow& row) { writer.Add(row); }});
+                         {[&](bool with_name) { writer.Names(with_name); },
+                          [&](const BatchRow& row) { writer.Add(row); }});
   if (!done) {
     writer.Flush();
     return done;
@@ -233,7 +267,7 @@ Result<void> RunColorBatch(const std::string& path, Console& console) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return Failed("unreadable", path, "cannot be read; check its permissions");
   if (std::filesystem::is_regular_file(path)) {
-    const Sink nothing = {[] {}, [](const BatchRow&) {}};
+    const Sink nothing = {[](bool) {}, [](const BatchRow&) {}};
     if (auto checked = ForEachRow(stream, path, nothing); !checked) return checked;
     stream.clear();
     stream.seekg(0);
