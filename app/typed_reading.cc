@@ -193,7 +193,13 @@ Result<std::vector<double>> ParseLengths(const std::string& option, const std::s
   const auto last = SplitNumberAndUnit(parts.back());
   std::vector<double> out;
   for (std::string part : parts) {
-    if (last && ParseNumber(part)) part += std::string(last->unit);
+    if (last && ParseNumber(part)) {
+      if (last->unit.find_first_of("0123456789") !=
+          std::string_view::npos) {  // "20x1ft8in": of feet, of inches, of metres?
+        return WrongUsage(option, "\"" + text + "\": write the unit of " + part + " too");
+      }
+      part += std::string(last->unit);
+    }
     const auto length = ParseLength(part);
     if (!length) return WrongUsage(option, "\"" + text + "\": " + length.error().message);
     out.push_back(length->value());

@@ -66,7 +66,12 @@ Result<void> FillSize(SourceGeometry& g, const std::string& text) {
   const std::string height = text.substr(cross + 1);
   const auto width_parts = SplitNumberAndUnit(width);
   const auto height_parts = SplitNumberAndUnit(height);
-  if (width_parts && height_parts && width_parts->unit.empty()) width += height_parts->unit;
+  if (width_parts && height_parts && width_parts->unit.empty()) {
+    if (height_parts->unit.find_first_of("0123456789") != std::string_view::npos) {
+      return WrongUsage("--size", "\"" + text + "\": write the unit of " + width + " too");
+    }
+    width += height_parts->unit;
+  }
   if (auto done = FillLength(g.width, width); !done) return done;
   return FillLength(g.height, height);
 }

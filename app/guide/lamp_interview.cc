@@ -146,13 +146,16 @@ std::string TargetMenu() {
 
 // "9W 806lm 2900K 36deg", in any order.
 Result<NewSession> ParseBox(const std::string& text) {
+  constexpr const char* kBoxForm =
+      "is not understood; write watts, lumens, kelvin and the full beam angle with their units, no "
+      "blank between: 9W 806lm 2900K 36deg";
   NewSession box;
   std::string spaced = text;
   std::ranges::replace(spaced, ',', ' ');
   std::istringstream words(spaced);
   for (std::string word; words >> word;) {
     const auto split = SplitNumberAndUnit(word);
-    if (!split) return tl::unexpected(split.error());
+    if (!split) return WrongUsage("\"" + word + "\"", "\"" + word + "\" " + kBoxForm);
     const std::string unit = LowerAscii(split->unit);
     const bool positive = split->number > 0.0;
     const bool degrees = unit == "deg" || unit == "°";
@@ -172,9 +175,7 @@ Result<NewSession> ParseBox(const std::string& text) {
     } else if (positive && degrees) {
       box.light.beam = RadiansFromDegrees(split->number);
     } else {
-      return WrongUsage("\"" + word + "\"",
-                        "is not understood; write watts, lumens, kelvin and the full beam angle "
-                        "with their units, no blank between: 9W 806lm 2900K 36deg");
+      return WrongUsage("\"" + word + "\"", "\"" + word + "\" " + kBoxForm);
     }
   }
   return box;

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "lightcal/core/numbers_text.h"
 
@@ -18,8 +21,9 @@ struct UnitFactor {
 };
 
 constexpr UnitFactor kLengthUnits[] = {
-    {"", 1.0},      {"m", 1.0},     {"cm", 0.01},     {"mm", 0.001},  {"km", 1000.0},
-    {"in", 0.0254}, {"\"", 0.0254}, {"inch", 0.0254}, {"ft", 0.3048}, {"'", 0.3048}};
+    {"", 1.0},        {"m", 1.0},       {"cm", 0.01},      {"mm", 0.001},  {"km", 1000.0},
+    {"in", 0.0254},   {"\"", 0.0254},   {"inch", 0.0254},  {"ft", 0.3048}, {"'", 0.3048},
+    {"feet", 0.3048}, {"foot", 0.3048}, {"inches", 0.0254}};
 constexpr UnitFactor kIlluminanceUnits[] = {
     {"", 1.0}, {"lx", 1.0}, {"lux", 1.0}, {"klx", 1000.0}, {"fc", kLuxPerFootcandle}};
 constexpr UnitFactor kDurationUnits[] = {{"", 1.0},    {"s", 1.0},   {"sec", 1.0},
@@ -65,6 +69,81 @@ std::string HowToType(std::string_view text, std::size_t before) {
   return "decimals have a point here, and thousands no sign: " + typed;
 }
 
+// As typed, the marks of a typographer's too.
+constexpr std::initializer_list<std::string_view> kInchWords = {
+    "inches", "inch", "in", "\"", "''", "\xE2\x80\xB3", "\xE2\x80\x9D"};
+constexpr std::initializer_list<std::string_view> kFootWords = {
+    "feet", "foot", "ft", "'", "\xE2\x80\xB2", "\xE2\x80\x99"};
+
+// Takes the first of `words` that stands at the front, with the blanks before it.
+bool TakeWord(std::string_view& text, std::initializer_list<std::string_view> words) {
+  const std::string_view content = TrimBlanks(text);
+  for (const std::string_view word : words) {
+    if (!content.starts_with(word)) continue;
+    text = content.substr(word.size());
+    return true;
+  }
+  return false;
+}
+
+// "8", "8.5", "8 1/2", "8-1/2" or "1/2" of a tape measure, taken off the front.
+std::optional<double> TakeTapeNumber(std::string_view& text) {
+  text = TrimBlanks(text);
+  const auto take = [&text](std::string_view characters) {
+    const std::size_t end = std::min(text.find_first_not_of(characters), text.size());
+    const std::string_view taken = text.substr(0, end);
+    text.remove_prefix(end);
+    return taken;
+  };
+  const std::string_view first = take("0123456789.");
+  const auto whole = ParseNumber(first);
+  if (!whole) return std::nullopt;
+  const bool is_whole = first.find('.') == std::string_view::npos;
+  const auto over = [&](double above) -> std::optional<double> {
+    text.remove_prefix(1);
+    const auto below = ParseNumber(take(kNumerals));
+    if (!below || !(*below > 0.0)) return std::nullopt;
+    return above / *below;
+  };
+  if (text.starts_with('/')) return is_whole ? over(*whole) : std::nullopt;
+  std::string_view ahead = text;
+  const std::string_view gap = take(" -");
+  const auto above = ParseNumber(take(kNumerals));
+  if (gap.empty() || !above || !text.starts_with('/') || !is_whole) {
+    text = ahead;
+    return whole;
+  }
+  const auto part = over(*above);
+  if (!part) return std::nullopt;
+  return *whole + *part;
+}
+
+// "1ft8in" "1'8\"" "5' 8 1/2\"" "5 ft 8" "8 1/2 in" in metres; absent for what is not of a tape
+// measure.
+std::optional<double> FeetAndInches(std::string_view written) {
+  const std::string lower = LowerAscii(TrimBlanks(written));
+  std::string_view text = lower;
+  const bool minus = TakeWord(text, {"-"});
+  const auto first = TakeTapeNumber(text);
+  if (!first) return std::nullopt;
+  double inches = *first;
+  if (!TakeWord(text, kInchWords)) {
+    if (!TakeWord(text, kFootWords)) return std::nullopt;
+    constexpr double kInchesPerFoot = 12.0;
+    inches *= kInchesPerFoot;
+    (void)TakeWord(text, {"-"});
+    if (!TrimBlanks(text).empty()) {
+      const auto more = TakeTapeNumber(text);
+      if (!more || !(*more < kInchesPerFoot)) return std::nullopt;
+      (void)TakeWord(text, kInchWords);
+      inches += *more;
+    }
+  }
+  if (!TrimBlanks(text).empty()) return std::nullopt;
+  constexpr double kMetresPerInch = 0.0254;
+  return (minus ? -inches : inches) * kMetresPerInch;
+}
+
 template <class Unit>
 Result<Unit> Wrap(Result<double>&& number) {
   if (!number) return Propagate(std::move(number));
@@ -97,8 +176,11 @@ Result<NumberWithUnit> SplitNumberAndUnit(std::string_view text) {
   } else if (const auto value = ParseNumber(number)) {
     return NumberWithUnit{*value, unit};
   }
-  return WrongUsage(std::string(text),
-                    "a number is needed here, with an optional unit, for example 0.5m or 192lx");
+  // Whoever names another subject (a question's flag) still says which word it is.
+  return WrongUsage(
+      std::string(text),
+      "a number is needed here, with an optional unit, for example 0.5m or 192lx; \"" +
+          std::string(trimmed) + "\" is none");
 }
 
 bool IsOverloadWord(std::string_view text) {
@@ -113,7 +195,11 @@ char LimitSignOf(std::string_view text) {
 }
 
 Result<Metres> ParseLength(std::string_view text) {
-  return Wrap<Metres>(ParseWith(text, kLengthUnits, "a length"));
+  auto length = ParseWith(text, kLengthUnits, "a length");
+  if (!length) {
+    if (const auto metres = FeetAndInches(text)) return Metres(*metres);
+  }
+  return Wrap<Metres>(std::move(length));
 }
 Result<Lux> ParseIlluminance(std::string_view text) {
   return Wrap<Lux>(ParseWith(text, kIlluminanceUnits, "an illuminance"));

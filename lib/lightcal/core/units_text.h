@@ -9,7 +9,8 @@
 
 namespace lightcal {
 
-// "0.5m" "50cm" "500mm" "20in" "2ft" "0.5".  1 in = 0.0254 m, 1 ft = 0.3048 m exactly.
+// "0.5m" "50cm" "500mm" "20in" "2ft" "0.5", feet and inches together "1ft8in" "1'8\"" "5' 8 1/2\"",
+// the inches below 12.  1 in = 0.0254 m, 1 ft = 0.3048 m exactly.
 [[nodiscard]] Result<Metres> ParseLength(std::string_view text);
 // "192lx" "17.8fc" "1.2klx" "192".  1 fc = 1 lm/ft^2 = 1/0.3048^2 lx = 10.7639 lx.
 [[nodiscard]] Result<Lux> ParseIlluminance(std::string_view text);
