@@ -30,6 +30,7 @@ constexpr std::array kScalarNames = {
     KnownName{"illuminance_lx", CsvQuantity::kIlluminance},
     KnownName{"illuminance_klx", CsvQuantity::kIlluminance, 1000.0},
     KnownName{"illuminance_fc", CsvQuantity::kIlluminance, kLuxPerFootcandle},
+    KnownName{"card_lx", CsvQuantity::kCard},
     KnownName{"cct_K", CsvQuantity::kCct},
     KnownName{"duv", CsvQuantity::kDuv},
     KnownName{"x", CsvQuantity::kX},

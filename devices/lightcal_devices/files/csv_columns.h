@@ -14,6 +14,7 @@ enum class CsvQuantity {
   kNeedsUnit,  // a length, angle or irradiance whose unit the name does not say
   kDistance,
   kIlluminance,
+  kCard,  // lux behind a shadow card at the place of the row's reading
   kCct,
   kDuv,
   kX,

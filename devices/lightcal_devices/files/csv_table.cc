@@ -248,6 +248,20 @@ std::optional<double> NumberAt(const CsvTable& table, const Row& row, std::size_
   return ParseNumber(cell, table.decimal_comma);
 }
 
+tl::unexpected<Error> NotANumber(const CsvTable& table, const Row& row, std::size_t column,
+                                 std::string_view code) {
+  std::string with_comma(TrimBlanks(CellAt(row, column)));
+  const bool of_points = table.decimal_comma && ParseNumber(with_comma).has_value();
+  std::ranges::replace(with_comma, '.', ',');
+  return Refused(std::string(code), AtLine(table.name, row.line),
+                 "'" + std::string(CellAt(row, column).substr(0, 40)) + "' in the column " +
+                     table.columns[column].written + " is no finite number" +
+                     (IsOverloadWord(CellAt(row, column)) ? "; " + std::string(kWriteALimit) : "") +
+                     (of_points ? "; the decimals of this file are commas: write " + with_comma +
+                                      ", or a thousand without a point"
+                                : ""));
+}
+
 bool IsTableUnderHeader(std::string_view text) {
   const std::string_view header = HeaderLine(text);
   const auto rows = ReadRows(header, DelimiterOf(header));

@@ -34,6 +34,10 @@ struct CsvTable {
 [[nodiscard]] std::optional<double> NumberAt(const CsvTable& table, const Row& row,
                                              std::size_t column);
 
+// The refusal of such a cell, by its line and column, with what to write instead.
+[[nodiscard]] tl::unexpected<Error> NotANumber(const CsvTable& table, const Row& row,
+                                               std::size_t column, std::string_view code);
+
 // Whether the first line that is no comment names at least one quantity.
 [[nodiscard]] bool IsTableUnderHeader(std::string_view text);
 

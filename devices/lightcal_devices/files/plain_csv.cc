@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -17,20 +18,6 @@
 
 namespace lightcal::devices::files {
 namespace {
-
-tl::unexpected<Error> NotANumber(const CsvTable& table, const Row& row, std::size_t column,
-                                 std::string_view code) {
-  std::string with_comma(TrimBlanks(CellAt(row, column)));
-  const bool of_points = table.decimal_comma && ParseNumber(with_comma).has_value();
-  std::ranges::replace(with_comma, '.', ',');
-  return Refused(std::string(code), AtLine(table.name, row.line),
-                 "'" + std::string(CellAt(row, column).substr(0, 40)) + "' in the column " +
-                     table.columns[column].written + " is no finite number" +
-                     (IsOverloadWord(CellAt(row, column)) ? "; " + std::string(kWriteALimit) : "") +
-                     (of_points ? "; the decimals of this file are commas: write " + with_comma +
-                                      ", or a thousand without a point"
-                                : ""));
-}
 
 // What a column's name would be if it held a control: state.mode.
 std::string OfAControl(std::string_view written) {
@@ -161,6 +148,7 @@ bool TakeNumber(Reading& reading, CsvQuantity quantity, double value) {
 
 struct RowReading {
   Reading reading;
+  std::optional<Lux> card;  // what the same place showed behind a shadow card
   std::optional<double> x;
   std::optional<double> y;
   std::array<std::optional<double>, 3> position, normal;
@@ -214,13 +202,31 @@ Result<void> TakeCell(RowReading& taken, const CsvTable& table, const Row& row, 
     taken.reading.over_range = LimitSignOf(cell) == '>';
     taken.reading.under_range = LimitSignOf(cell) == '<';
   }
+  if (column.quantity == CsvQuantity::kCard && value >= 0.0) {
+    taken.card = Lux(value);
+    return {};
+  }
   if (TakeCoordinate(taken, column.quantity, value)) return {};
-  if (TakeNumber(taken.reading, column.quantity, value)) return {};
+  if (column.quantity != CsvQuantity::kCard && TakeNumber(taken.reading, column.quantity, value)) {
+    return {};
+  }
   return Refused("bad_row", AtLine(table.name, row.line),
                  cell.substr(0, 40) + " is no possible " + column.written);
 }
 
-Result<Reading> ReadingFromRow(const CsvTable& table, const Row& row) {
+// The reading behind a shadow card at the place of another: what is left is of no lamp's colour.
+Reading BehindCard(Reading reading, Lux card) {
+  reading.illuminance = card;
+  reading.shadow_card = true;
+  reading.over_range = reading.under_range = false;
+  reading.cct.reset();
+  reading.duv.reset();
+  reading.xy.reset();
+  return reading;
+}
+
+// One reading, with a card's two; none where the meter left the row's cells empty.
+Result<std::vector<Reading>> ReadingsFromRow(const CsvTable& table, const Row& row) {
   RowReading taken;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     if (auto cell = TakeCell(taken, table, row, i); !cell) return Propagate(std::move(cell));
@@ -244,19 +250,38 @@ Result<Reading> ReadingFromRow(const CsvTable& table, const Row& row) {
     }
     reading.xy = xy;
   }
-  if (!reading.illuminance && !reading.cct && !reading.xy) {
-    return Refused("bad_row", where, "holds neither an illuminance nor a colour");
+  if (taken.card && (reading.shadow_card || reading.lamp == LampState::kOff)) {
+    return Refused("bad_row", where,
+                   "is a reading without the lamp's light and gives card_lx too; card_lx stands "
+                   "beside a reading of the lamp");
   }
-  return std::move(reading);
+  std::vector<Reading> readings;
+  if (reading.illuminance || reading.cct || reading.xy) readings.push_back(reading);
+  if (taken.card) readings.push_back(BehindCard(std::move(reading), *taken.card));
+  return readings;
 }
 
 Result<ImportedFile> ReadReadings(const CsvTable& table) {
   ImportedFile file;
   file.format = "csv";
+  std::size_t empty = 0;
+  int first_empty = 0;
   for (const Row& row : table.rows) {
-    auto reading = ReadingFromRow(table, row);
-    if (!reading) return Propagate(std::move(reading));
-    file.readings.push_back(std::move(*reading));
+    auto readings = ReadingsFromRow(table, row);
+    if (!readings) return Propagate(std::move(readings));
+    if (readings->empty() && empty++ == 0) first_empty = row.line;
+    std::ranges::move(*readings, std::back_inserter(file.readings));
+  }
+  if (file.readings.empty()) {
+    return Refused("bad_row", AtLine(table.name, first_empty),
+                   "holds neither an illuminance nor a colour, as no row of the file does");
+  }
+  if (empty > 0) {
+    file.warnings.push_back(
+        {"rows_skipped", table.name,
+         std::to_string(empty) + " of " + std::to_string(table.rows.size()) +
+             " rows hold neither an illuminance nor a colour (the first is line " +
+             std::to_string(first_empty) + "); they are left out"});
   }
   return file;
 }

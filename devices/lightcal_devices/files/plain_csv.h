@@ -18,10 +18,11 @@ namespace lightcal::devices::files {
 // Whether the first line names at least one quantity.
 [[nodiscard]] bool IsPlainCsv(std::string_view text);
 
-// All rows or none. Refused: units_ambiguous (a quantity without a unit, an unknown column of
-// numbers, the same quantity twice), bad_row (naming the line), no_rows, bad_spectrum.
-// A column of words that no one knows is left out with the warning column_ignored; a point that may
-// part thousands warns as decimals_ambiguous.
+// One reading a row, two where card_lx gives what its place showed behind a shadow card. All rows
+// or none, but those without a value (rows_skipped, said once). Refused: units_ambiguous (a
+// quantity without a unit, an unknown column of numbers, the same quantity twice), bad_row (naming
+// the line), no_rows, bad_spectrum. A column of words that no one knows is left out with the
+// warning column_ignored; a point that may part thousands warns as decimals_ambiguous.
 [[nodiscard]] Result<ImportedFile> ReadPlainCsv(std::string_view text, std::string_view name);
 
 // The same of a table whose columns a person names, in their order ("-" leaves one out): of a file
