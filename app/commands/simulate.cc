@@ -196,14 +196,19 @@ Result<void> CheckInRoom(const Simulated& simulated) {
   return {};
 }
 
-// Of the room the lamps were measured in; another, stated one is simulated.
+// Of the room the lamps were measured in, the session's own or one nobody stated; of another
+// (--room) no meter said anything.
 void PredictRooms(const SimulateOptions& options, const Input& input, Simulated& simulated) {
   const auto chosen = ChooseLights(input.lights, options.lights);
-  if (!chosen || simulated.settings.room || chosen->size() != simulated.lamps.size()) return;
+  if (!chosen || !options.room.empty() || chosen->size() != simulated.lamps.size()) return;
+  MapSettings lamps_alone = simulated.settings;
+  lamps_alone.room.reset();
+  const IlluminancePredictor predictor(simulated.lamps, lamps_alone);
   for (PredictedPoint& point : simulated.points) {
+    const std::vector<LampLux> alone =
+        simulated.settings.room ? predictor.At(point.at) : point.parts;
     for (std::size_t k = 0; k < simulated.lamps.size(); ++k) {
-      point.in_room.push_back(
-          LuxInRoom(*(*chosen)[k], simulated.lamps[k], point.parts[k], point.at));
+      point.in_room.push_back(LuxInRoom(*(*chosen)[k], simulated.lamps[k], alone[k], point.at));
     }
   }
 }

@@ -96,11 +96,13 @@ std::string PointTable(const Simulated& s) {
     if (in_room) row.push_back(RoomText(RoomTotal(point, s.ambient_lx)));
     rows.push_back(std::move(row));
   }
-  const bool alone = !walls && !std::ranges::all_of(s.lamps, [](const PlacedLamp& lamp) {
-    return IsEverywhere(lamp.source);
-  });
-  std::vector<std::string> header = {"at x, y, z (m)", "light",
-                                     alone ? "lamp alone (95 %)" : "illuminance (95 %)", "share"};
+  const bool everywhere = std::ranges::all_of(
+      s.lamps, [](const PlacedLamp& lamp) { return IsEverywhere(lamp.source); });
+  // Not one quantity: with walls it is more light, of a wider interval in lux.
+  const char* const what = everywhere ? "illuminance (95 %)"
+                           : walls    ? "lamp and walls (95 %)"
+                                      : "lamp alone (95 %)";
+  std::vector<std::string> header = {"at x, y, z (m)", "light", what, "share"};
   if (walls) header.emplace_back("from walls");
   if (in_room) header.emplace_back("in the room it was measured in");
   return TextTable(header, rows);

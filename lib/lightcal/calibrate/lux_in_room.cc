@@ -27,9 +27,10 @@ Uncertain WithPattern(const Uncertain& whole, const FittedLight& light, const Pl
   return out;
 }
 
-// Whether the meter faces the lamp where it shines as on its axis.
-bool FacesAxis(const PlacedLamp& placed, double direct_lx, const SurfacePoint& at,
-               const Vec3& way) {
+// Whether the meter faces the lamp where it shines as on its axis, and there as PredictInRoom has
+// it, with the intensity of its peak: a photometric lamp's may lie beside its axis.
+bool FacesAxis(const FittedLight& light, const PlacedLamp& placed, double direct_lx,
+               const SurfacePoint& at, const Vec3& way) {
   const double distance = Length(way);
   if (!(Dot(way, at.normal) > kFacing * distance)) return false;
   if (DoubtOfPattern(placed, at) > kLikeOnAxis * direct_lx) return false;
@@ -39,6 +40,10 @@ bool FacesAxis(const PlacedLamp& placed, double direct_lx, const SurfacePoint& a
   }
   const Vec3& aim = placed.pose.frame.z;
   const double on_axis = LuxOf(placed, {placed.pose.position_m + aim * distance, aim * -1.0});
+  if (light.kind == LightKind::kPhotometric && light.intensity_cd) {
+    const double of_peak = light.intensity_cd->value / (distance * distance);
+    if (std::abs(on_axis - of_peak) > kLikeOnAxis * of_peak) return false;
+  }
   return std::abs(direct_lx - on_axis) < kLikeOnAxis * on_axis;
 }
 
@@ -56,7 +61,7 @@ std::optional<Uncertain> LuxInRoom(const FittedLight& light, const PlacedLamp& p
   }
   const auto room = PredictInRoom(light, Metres(distance), 0.0);
   if (!room || !*room) return std::nullopt;
-  if (FacesAxis(placed, alone.direct_lx, at, way)) {
+  if (FacesAxis(light, placed, alone.direct_lx, at, way)) {
     return WithPattern((*room)->whole_lx, light, placed, alone.direct_lx, way);
   }
   const Uncertain& walls = (*room)->walls_lx;
