@@ -12,6 +12,7 @@
 #include "input_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/printable.h"
+#include "lightcal/fit/model/input_checks.h"
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
@@ -56,6 +57,7 @@ class ReadRun {
 
   Result<void> Execute() {
     if (auto loaded = LoadTheSession(); !loaded) return loaded;
+    DoubtDistance();
     const bool typed = options_.typed || !options_.lux.empty();
     auto opened = ReadingSource::Open(
         {options_.session, typed, options_.request,
@@ -95,6 +97,17 @@ class ReadRun {
                         "where to put the meter");
     }
     return CheckState(*session_, frame);
+  }
+
+  // As `fit` would of the session later, while the meter still stands there.
+  void DoubtDistance() {
+    const Reading& frame = options_.frame;
+    if (!frame.distance) return;
+    if (session_ && !fit::HasDistanceLaw(FindLight(*session_, frame.light)->kind)) return;
+    const Surroundings around = session_ ? session_->surroundings : Surroundings::kIndoors;
+    if (auto doubt = fit::DoubtOfDistance(around, frame.light, *frame.distance)) {
+      console_.Warn({*std::move(doubt)});
+    }
   }
 
   [[nodiscard]] bool AsksQuestions() const { return CanAsk() && !console_.json(); }

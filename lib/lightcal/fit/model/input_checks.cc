@@ -41,6 +41,20 @@ constexpr double kLargestRoom = 150.0;
 constexpr double kFarthestIndoors = 40.0;
 constexpr double kFarthestPlace = 300.0;
 
+double FarthestReading(Surroundings surroundings) {
+  return surroundings == Surroundings::kOutdoors ? kFarthestPlace : kFarthestIndoors;
+}
+constexpr const char* kAtDistance = "a reading at a distance";
+
+std::string SayOfLength(const std::string& what, double metres) {
+  return what + " of " + RoundedText(metres, 3) + " m";
+}
+Warning UnitsSuspect(const std::string& light, const std::string& lengths) {
+  return {
+      "units_suspect", light,
+      lengths + ": is that so? A number without a unit is metres; write 120cm or 20in for others"};
+}
+
 // Towards a beam's rim a degree of aim outweighs any unit: only its bright part is compared.
 // Towards a grazing tilt a degree of it does, and so does the walls' light, which no cosine dims.
 constexpr double kBrightPart = 0.3;
@@ -260,7 +274,7 @@ Result<void> CheckLengths(const Session& session, const LightDescription& light,
   std::string suspect;
   const auto hold = [&](const std::string& what, double metres, double largest) {
     if (!(metres > largest)) return;
-    suspect += (suspect.empty() ? "" : ", ") + what + " of " + RoundedText(metres, 3) + " m";
+    suspect += (suspect.empty() ? "" : ", ") + SayOfLength(what, metres);
   };
   for (const auto& side : {light.diameter, light.width, light.height, light.length}) {
     if (side) hold("a lamp", side->value(), kLargestLamp);
@@ -270,21 +284,21 @@ Result<void> CheckLengths(const Session& session, const LightDescription& light,
     const Vec3& size = session.room->size_m;
     hold("a room", std::max({size[0], size[1], size[2]}), kLargestRoom);
   }
-  const double farthest =
-      session.surroundings == Surroundings::kOutdoors ? kFarthestPlace : kFarthestIndoors;
   double most = 0.0;
   for (const SessionReading& row : session.readings) {
     const Reading& reading = row.reading;
     if (reading.light != light.name || light.kind == LightKind::kDirectional) continue;
     if (reading.distance) most = std::max(most, reading.distance->value());
   }
-  hold("a reading at a distance", most, farthest);
-  if (suspect.empty()) return {};
-  warnings.push_back(
-      {"units_suspect", light.name,
-       suspect +
-           ": is that so? A number without a unit is metres; write 120cm or 20in for others"});
+  hold(kAtDistance, most, FarthestReading(session.surroundings));
+  if (!suspect.empty()) warnings.push_back(UnitsSuspect(light.name, suspect));
   return {};
+}
+
+std::optional<Warning> DoubtOfDistance(Surroundings surroundings, const std::string& light,
+                                       Metres distance) {
+  if (!(distance.value() > FarthestReading(surroundings))) return std::nullopt;
+  return UnitsSuspect(light, SayOfLength(kAtDistance, distance.value()));
 }
 
 }  // namespace lightcal::fit

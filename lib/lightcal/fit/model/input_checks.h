@@ -3,6 +3,7 @@
 // room, sizes that are missing or no lamp's.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lightcal/core/result.h"
@@ -32,5 +33,9 @@ void CheckRoom(const Session& session, const LightDescription& light, Warnings& 
 // Warns of lengths that no lamp, room or meter has (units_suspect): 120 x 60 for centimetres.
 [[nodiscard]] Result<void> CheckLengths(const Session& session, const LightDescription& light,
                                         Warnings& warnings);
+
+// The same of one distance, for whoever is about to write it down; absent where it may be so.
+[[nodiscard]] std::optional<Warning> DoubtOfDistance(Surroundings surroundings,
+                                                     const std::string& light, Metres distance);
 
 }  // namespace lightcal::fit
