@@ -12,7 +12,19 @@ std::string ChromaticityPlot(const FittedColor& color) {
   FittedLight light;
   light.color = color;
   std::string svg = ChromaticityFigure(light, "chromaticity");
-  return svg.empty() ? svg : StandaloneSvg(std::move(svg));
+  if (svg.empty()) return svg;
+  return StandaloneSvg(WithCaption(std::move(svg), ChromaticityCaption(color.cct_K.has_value())));
+}
+
+PlotCaption ChromaticityCaption(bool region) {
+  PlotCaption caption{{DotKey("light")}, ""};
+  if (region) {
+    caption.keys.push_back(
+        {"<ellipse class=\"ellipse\" cx=\"11\" cy=\"6\" rx=\"9\" ry=\"5\"/>", "its 95 % region"});
+  }
+  caption.keys.push_back(LineKey("locus", "Planckian locus"));
+  caption.keys.push_back(LineKey("guide", "Duv ±0.006"));
+  return caption;
 }
 
 }  // namespace lightcal::report

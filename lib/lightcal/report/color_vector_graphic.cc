@@ -112,9 +112,19 @@ std::string ColorVectorFigure(const ColorFidelity& fidelity, const GamutAndBins&
   return svg.Finish();
 }
 
+PlotCaption Tm30Caption() {
+  return {{LineKey("reference", "reference light"),
+           LineKey("gamut", "this light"),
+           {"<path class=\"shift\" d=\"M2 6H16\"/>"
+            "<circle class=\"used\" cx=\"17\" cy=\"6\" r=\"4\"/>",
+            "shift of a hue"}},
+          ""};
+}
+
 std::string ColorVectorGraphic(const ColorFidelity& fidelity, const GamutAndBins& gamut,
                                std::string_view title) {
-  return StandaloneSvg(ColorVectorFigure(fidelity, gamut, title, "tm30"));
+  return StandaloneSvg(
+      WithCaption(ColorVectorFigure(fidelity, gamut, title, "tm30"), Tm30Caption()));
 }
 
 }  // namespace lightcal::report

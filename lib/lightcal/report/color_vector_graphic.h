@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "lightcal/colorimetry/color_fidelity.h"
+#include "lightcal/report/plot_keys.h"
 
 namespace lightcal::report {
 
@@ -19,7 +20,10 @@ namespace lightcal::report {
                                             const GamutAndBins& gamut, std::string_view title,
                                             std::string_view id);
 
-// A whole SVG file of it, with its style sheet.
+// What its marks mean.
+[[nodiscard]] PlotCaption Tm30Caption();
+
+// A whole SVG file of it, with its style sheet and that caption.
 [[nodiscard]] std::string ColorVectorGraphic(const ColorFidelity& fidelity,
                                              const GamutAndBins& gamut, std::string_view title);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "lightcal/records/light_curve.h"
@@ -84,10 +85,15 @@ std::string DistanceFigure(const FittedLight& light, std::string_view id) {
   if (!curve || rows.empty()) return "";
   const Axis x = DistanceAxis(rows, *curve);
   const Axis y = IlluminanceAxis(rows, *curve, x);
+  const bool walls = HoldWalls(rows);
   Svg svg(std::string(id), "Illuminance against distance",
-          "Readings, the fitted model and its 95 % band, both axes logarithmic");
+          std::string(walls ? "Readings less the walls' light" : "Readings") +
+              ", the fitted lamp and its 95 % band, both axes logarithmic");
+  const std::string facing = SomeTurned(rows) ? " facing it" : "";
   svg.Axes(x, y, "distance from the reference point (m)",
-           SomeTurned(rows) ? "illuminance facing the lamp (lx)" : "illuminance (lx)");
+           walls              ? "illuminance by the lamp alone" + facing + " (lx)"
+           : SomeTurned(rows) ? "illuminance facing the lamp (lx)"
+                              : "illuminance (lx)");
   svg.BeginPlot();
   DrawModel(svg, *curve, x, y);
   for (const ResidualRow& row : rows) {

@@ -10,8 +10,8 @@
 namespace lightcal::report {
 
 // Illuminance against distance, both logarithmic: the model, its 95 % band, readings with their own
-// 95 % interval. A reading is shown at E(d) (1 + residual), which is what a facing meter without
-// shadow card would have read. id must be unique in the page.
+// 95 % interval. A reading is shown at E(d) (1 + residual), which is what a facing meter would
+// have read of the lamp alone, without its walls' light. id must be unique in the page.
 [[nodiscard]] std::string DistanceFigure(const FittedLight& light, std::string_view id);
 
 // E d^2 against distance, both linear: readings with their own 95 % interval, the flat band of the

@@ -175,8 +175,8 @@ std::string FirstFigure(const FittedLight& light, const ReportExtras& extras,
   const LightPlot& plot = LightPlots().front();
   const std::string svg = plot.draw(light, extras, prefix + std::string(plot.name));
   if (svg.empty()) return "";
-  return "<figure class=\"first\">\n" + svg + "<figcaption>" + plot.caption(light, extras) +
-         "</figcaption>\n</figure>\n";
+  return "<figure class=\"first\">\n" + svg + "<figcaption>" +
+         CaptionHtml(plot.caption(light, extras)) + "</figcaption>\n</figure>\n";
 }
 
 // Three numbers, or one of many digits.
@@ -209,7 +209,7 @@ std::string FigureBlock(const LightPlot& plot, const FittedLight& light, const R
   const std::string svg = plot.draw(light, extras, prefix + std::string(plot.name));
   if (svg.empty()) return "";
   return "<figure>\n<h3>" + std::string(plot.heading) + "</h3>\n" + svg + "<figcaption>" +
-         plot.caption(light, extras) + "</figcaption>\n</figure>\n";
+         CaptionHtml(plot.caption(light, extras)) + "</figcaption>\n</figure>\n";
 }
 
 // A picture of its own, as its rules are.

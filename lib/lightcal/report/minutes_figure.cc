@@ -167,7 +167,17 @@ std::string MinutesFigure(std::span<const MinutesLadder> ladders, std::string_vi
 
 std::string MinutesPlot(std::span<const MinutesLadder> ladders) {
   std::string figure = MinutesFigure(ladders, "minutes");
-  return figure.empty() ? "" : StandaloneSvg(std::move(figure));
+  if (figure.empty()) return "";
+  return StandaloneSvg(WithCaption(std::move(figure), MinutesCaption(ladders)));
+}
+
+PlotCaption MinutesCaption(std::span<const MinutesLadder> ladders) {
+  PlotCaption caption{{DotKey("after a further reading or card, as foretold")}, ""};
+  const auto knows_meter = [](const MinutesLadder& one) { return one.meter_u95_relative > 0.0; };
+  if (std::ranges::any_of(ladders, knows_meter)) {
+    caption.keys.push_back(LineKey("second", "what the meter's own calibration leaves"));
+  }
+  return caption;
 }
 
 }  // namespace lightcal::report

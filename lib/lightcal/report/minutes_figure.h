@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "lightcal/records/reading_plan.h"
+#include "lightcal/report/plot_keys.h"
 
 namespace lightcal::report {
 
@@ -17,7 +18,10 @@ namespace lightcal::report {
 [[nodiscard]] std::string MinutesFigure(std::span<const MinutesLadder> ladders,
                                         std::string_view id);
 
-// A whole SVG file: MinutesFigure with its style sheet inside.
+// What its marks mean.
+[[nodiscard]] PlotCaption MinutesCaption(std::span<const MinutesLadder> ladders);
+
+// A whole SVG file: MinutesFigure with that caption and its style sheet inside.
 [[nodiscard]] std::string MinutesPlot(std::span<const MinutesLadder> ladders);
 
 }  // namespace lightcal::report

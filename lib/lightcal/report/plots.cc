@@ -5,12 +5,14 @@
 #include <array>
 #include <utility>
 
+#include "lightcal/report/chromaticity_plot.h"
 #include "lightcal/report/color_vector_graphic.h"
 #include "lightcal/report/control_figure.h"
 #include "lightcal/report/figures.h"
 #include "lightcal/report/gate_figure.h"
 #include "lightcal/report/luminance_figure.h"
 #include "lightcal/report/minutes_figure.h"
+#include "lightcal/report/readings.h"
 #include "lightcal/report/spectrum_figure.h"
 #include "lightcal/report/style.h"
 #include "lightcal/report/text.h"
@@ -28,39 +30,32 @@ const Item* FirstOf(const std::vector<Item>& items, const FittedLight& light) {
   return found == items.end() ? nullptr : &*found;
 }
 
-std::string Key(std::string_view mark, std::string_view label) {
-  return "<span class=\"key\"><svg viewBox=\"0 0 22 12\" aria-hidden=\"true\">" +
-         std::string(mark) + "</svg>" + std::string(label) + "</span>";
-}
-
-std::string LineKey(std::string_view css, std::string_view label) {
-  return Key("<line class=\"" + std::string(css) + "\" x1=\"0\" y1=\"6\" x2=\"22\" y2=\"6\"/>",
-             label);
-}
-
-std::string ReadingKeys(const FittedLight& light, const ReportExtras& /*extras*/) {
+void AddRejected(const FittedLight& light, PlotCaption& caption) {
   const bool rejected =
       std::ranges::any_of(light.residuals, [](const ResidualRow& row) { return !row.used; });
-  return Key("<line class=\"whisker\" x1=\"11\" y1=\"0\" x2=\"11\" y2=\"12\"/>"
-             "<circle class=\"used\" cx=\"11\" cy=\"6\" r=\"4\"/>",
-             "reading with its 95 %") +
-         (rejected ? Key("<path class=\"rejected\" d=\"M7 2L15 10M7 10L15 2\"/>", "rejected") : "");
+  if (rejected) caption.keys.push_back(CrossKey("left out"));
 }
 
-std::string DistanceKeys(const FittedLight& light, const ReportExtras& extras) {
-  const std::string band =
-      Key("<rect class=\"band\" x=\"0\" y=\"1\" width=\"22\" height=\"10\"/>", "its 95 % band");
-  return ReadingKeys(light, extras) + LineKey("model", "model") +
-         (light.covariance_lnI_d0_E0 ? band : "");
+PlotCaption ResidualKeys(const FittedLight& light, const ReportExtras& /*extras*/) {
+  PlotCaption caption{{ReadingKey("reading with its 95 %"), LineKey("zero", "the fitted lamp")},
+                      ""};
+  AddRejected(light, caption);
+  return caption;
 }
 
-std::string ChromaticityKeys(const FittedLight& light, const ReportExtras& /*extras*/) {
-  return Key("<circle class=\"used\" cx=\"11\" cy=\"6\" r=\"4\"/>", "light") +
-         (light.color.cct_K
-              ? Key("<ellipse class=\"ellipse\" cx=\"11\" cy=\"6\" rx=\"9\" ry=\"5\"/>",
-                    "its 95 % region")
-              : "") +
-         LineKey("locus", "Planckian locus") + LineKey("guide", "Duv ±0.006");
+PlotCaption DistanceKeys(const FittedLight& light, const ReportExtras& /*extras*/) {
+  PlotCaption caption{
+      {ReadingKey(HoldWalls(light.residuals) ? "reading less the walls' light, its 95 %"
+                                             : "reading with its 95 %"),
+       LineKey("model", "the fitted lamp")},
+      ""};
+  if (light.covariance_lnI_d0_E0) caption.keys.push_back(BandKey("band", "its 95 %"));
+  AddRejected(light, caption);
+  return caption;
+}
+
+PlotCaption ChromaticityKeys(const FittedLight& light, const ReportExtras& /*extras*/) {
+  return ChromaticityCaption(light.color.cct_K.has_value());
 }
 
 std::string DrawSpectrum(const FittedLight& light, const ReportExtras& extras,
@@ -69,11 +64,11 @@ std::string DrawSpectrum(const FittedLight& light, const ReportExtras& extras,
   return spectrum == nullptr ? "" : SpectrumFigure(*spectrum, id);
 }
 
-std::string SpectrumCaption(const FittedLight& light, const ReportExtras& extras) {
+PlotCaption SpectrumCaption(const FittedLight& light, const ReportExtras& extras) {
   const LightSpectrum& spectrum = *FirstOf(extras.spectra, light);
   std::string text = "<code>" + Escaped(spectrum.file) + "</code>";
   if (spectrum.rendering) text += " · CRI Ra <b>" + Fixed(spectrum.rendering->Ra, 0) + "</b>";
-  return text;
+  return {{}, text};
 }
 
 std::string DrawTm30(const FittedLight& light, const ReportExtras& extras, std::string_view id) {
@@ -83,15 +78,12 @@ std::string DrawTm30(const FittedLight& light, const ReportExtras& extras, std::
                            id);
 }
 
-std::string Tm30Keys(const FittedLight& /*light*/, const ReportExtras& /*extras*/) {
-  return LineKey("reference", "reference light") + LineKey("gamut", "this light") +
-         Key("<line class=\"shift\" x1=\"2\" y1=\"6\" x2=\"16\" y2=\"6\"/>"
-             "<circle class=\"used\" cx=\"17\" cy=\"6\" r=\"4\"/>",
-             "shift of a hue");
+PlotCaption Tm30Keys(const FittedLight& /*light*/, const ReportExtras& /*extras*/) {
+  return Tm30Caption();
 }
 
-std::string PolarCaption(const FittedLight& /*light*/, const ReportExtras& /*extras*/) {
-  return "candela by the angle from the aim, which points down";
+PlotCaption PolarKeys(const FittedLight& /*light*/, const ReportExtras& /*extras*/) {
+  return {{}, "candela by the angle from the aim, which points down"};
 }
 
 std::string DrawLuminance(const FittedLight& light, const ReportExtras& extras,
@@ -100,10 +92,11 @@ std::string DrawLuminance(const FittedLight& light, const ReportExtras& extras,
   return picture == nullptr ? "" : LuminanceFigure(*picture, id);
 }
 
-std::string LuminanceCaption(const FittedLight& light, const ReportExtras& extras) {
+PlotCaption LuminanceCaption(const FittedLight& light, const ReportExtras& extras) {
   const LuminancePicture& picture = *FirstOf(extras.pictures, light);
-  return "the picture of the " + Escaped(picture.what) + " in false colours" +
-         (picture.region ? ", framed what was measured" : "");
+  return {{},
+          "the picture of the " + Escaped(picture.what) + " in false colours" +
+              (picture.region ? ", framed what was measured" : "")};
 }
 
 std::string DrawMinutes(const FittedLight& light, const ReportExtras& extras, std::string_view id) {
@@ -111,10 +104,8 @@ std::string DrawMinutes(const FittedLight& light, const ReportExtras& extras, st
   return ladder == nullptr ? "" : MinutesFigure({ladder, 1}, id);
 }
 
-std::string MinutesKeys(const FittedLight& light, const ReportExtras& extras) {
-  const bool meter = FirstOf(extras.ladders, light)->meter_u95_relative > 0.0;
-  return Key("<circle class=\"used\" cx=\"11\" cy=\"6\" r=\"4\"/>", "predicted, a further step") +
-         (meter ? LineKey("second", "what the meter's own calibration leaves") : "");
+PlotCaption MinutesKeys(const FittedLight& light, const ReportExtras& extras) {
+  return MinutesCaption({FirstOf(extras.ladders, light), 1});
 }
 
 // The light's own control of that number, the dimmer first.
@@ -133,14 +124,11 @@ std::string DrawControl(const FittedLight& light, const ReportExtras& extras, st
 }
 
 template <std::size_t kNumber>
-std::string ControlKeys(const FittedLight& light, const ReportExtras& extras) {
+PlotCaption ControlKeys(const FittedLight& light, const ReportExtras& extras) {
   const std::string others = ControlCaption(*SweepOf(extras, light, kNumber));
-  return Key("<line class=\"whisker\" x1=\"11\" y1=\"0\" x2=\"11\" y2=\"12\"/>"
-             "<circle class=\"used\" cx=\"11\" cy=\"6\" r=\"4\"/>",
-             "read, with its 95 %") +
-         LineKey("model", "between") +
-         Key("<rect class=\"band\" x=\"0\" y=\"1\" width=\"22\" height=\"10\"/>", "its 95 % band") +
-         LineKey("guide", "the label's promise") + (others.empty() ? "" : " · " + others);
+  return {{ReadingKey("read, with its 95 %"), LineKey("model", "between"),
+           BandKey("band", "its 95 %"), LineKey("guide", "the label's promise")},
+          others.empty() ? "" : " · " + others};
 }
 
 template <std::string (*kDraw)(const FittedLight&, std::string_view)>
@@ -148,20 +136,24 @@ std::string OfLight(const FittedLight& light, const ReportExtras& /*extras*/, st
   return kDraw(light, id);
 }
 
-std::string RoomKeys(const FittedLight& light, const ReportExtras& extras) {
-  return ReadingKeys(light, extras) +
-         Key("<rect class=\"band\" x=\"0\" y=\"1\" width=\"22\" height=\"10\"/>",
-             "your lamp, 95 %") +
-         (light.in_room.empty() || !light.in_room.front().ln_b
-              ? ""
-              : Key("<rect class=\"wedge\" x=\"0\" y=\"1\" width=\"22\" height=\"10\"/>",
-                    "what the walls add"));
+PlotCaption RoomKeys(const FittedLight& light, const ReportExtras& /*extras*/) {
+  PlotCaption caption{{ReadingKey("reading × distance², its 95 %"), LineKey("model", "your lamp"),
+                       BandKey("band", "its 95 %")},
+                      ""};
+  if (!light.in_room.empty() && light.in_room.front().ln_b) {
+    caption.keys.push_back(BandKey("wedge", "what the walls add"));
+    const bool carded = std::ranges::any_of(
+        light.residuals, [](const ResidualRow& row) { return row.used && !row.walls_lx; });
+    if (carded) caption.keys.push_back(LineKey("guide", "what the card took away"));
+  }
+  AddRejected(light, caption);
+  return caption;
 }
 
 constexpr std::array kLightPlots = {
     LightPlot{"room", "What the room adds", &OfLight<RoomFigure>, &RoomKeys},
     LightPlot{"distance", "Illuminance against distance", &OfLight<DistanceFigure>, &DistanceKeys},
-    LightPlot{"residuals", "Distance from the model", &OfLight<ResidualFigure>, &ReadingKeys},
+    LightPlot{"residuals", "Distance from the model", &OfLight<ResidualFigure>, &ResidualKeys},
     LightPlot{"output", "Light by its control", &DrawControl<0, &OutputFigure>, &ControlKeys<0>},
     LightPlot{"cct", "Colour temperature by its control", &DrawControl<0, &TemperatureFigure>,
               &ControlKeys<0>},
@@ -170,7 +162,7 @@ constexpr std::array kLightPlots = {
     LightPlot{"cct2", "Colour temperature by its second control",
               &DrawControl<1, &TemperatureFigure>, &ControlKeys<1>},
     LightPlot{"luminance", "Luminance", &DrawLuminance, &LuminanceCaption},
-    LightPlot{"polar", "Intensity by direction", &OfLight<PolarFigure>, &PolarCaption},
+    LightPlot{"polar", "Intensity by direction", &OfLight<PolarFigure>, &PolarKeys},
     LightPlot{"chromaticity", "Chromaticity, CIE 1976 u′v′", &OfLight<ChromaticityFigure>,
               &ChromaticityKeys},
     LightPlot{"spectrum", "Spectrum", &DrawSpectrum, &SpectrumCaption},
@@ -205,7 +197,9 @@ std::vector<PlotFile> PlotFilesOf(std::string_view name, const LightFile& file,
   if (plot == kLightPlots.end()) return files;
   for (const FittedLight& light : file.lights) {
     std::string svg = plot->draw(light, extras, name);
-    if (!svg.empty()) files.push_back({light.name, StandaloneSvg(std::move(svg))});
+    if (svg.empty()) continue;
+    svg = WithCaption(std::move(svg), plot->caption(light, extras));
+    files.push_back({light.name, StandaloneSvg(std::move(svg))});
   }
   return files;
 }

@@ -8,17 +8,18 @@
 #include <vector>
 
 #include "lightcal/records/fitted_light.h"
+#include "lightcal/report/plot_keys.h"
 #include "lightcal/report/report_extras.h"
 
 namespace lightcal::report {
 
-// A plot of one light. The functions give SVG for the page (id unique there) and the HTML of a
-// caption; no SVG where the light has nothing to show.
+// A plot of one light. The functions give SVG for the page (id unique there) and what its marks
+// mean; no SVG where the light has nothing to show.
 struct LightPlot {
   std::string_view name;  // "distance"
   std::string_view heading;
   std::string (*draw)(const FittedLight& light, const ReportExtras& extras, std::string_view id);
-  std::string (*caption)(const FittedLight& light, const ReportExtras& extras);
+  PlotCaption (*caption)(const FittedLight& light, const ReportExtras& extras);
 };
 // In the page's order.
 [[nodiscard]] std::span<const LightPlot> LightPlots();

@@ -26,6 +26,10 @@ bool SomeTurned(const std::vector<ResidualRow>& rows) {
                              [](const ResidualRow& row) { return row.facing_lx.has_value(); });
 }
 
+bool HoldWalls(const std::vector<ResidualRow>& rows) {
+  return std::ranges::any_of(rows, [](const ResidualRow& row) { return row.walls_lx.has_value(); });
+}
+
 std::string TooltipOf(const ResidualRow& row) {
   std::string text = "reading " + std::to_string(row.index) + ": ";
   if (row.distance_m) text += Figure(*row.distance_m) + " m, ";

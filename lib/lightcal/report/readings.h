@@ -18,6 +18,9 @@ namespace lightcal::report {
 // Whether some of them were not.
 [[nodiscard]] bool SomeTurned(const std::vector<ResidualRow>& rows);
 
+// Whether some hold light from the walls, which the fit found and figures leave out.
+[[nodiscard]] bool HoldWalls(const std::vector<ResidualRow>& rows);
+
 // "reading 0: 0.5 m, 3 221 lx, +1.00 %"; numbered as in `rejected` and session.toml, from 0.
 [[nodiscard]] std::string TooltipOf(const ResidualRow& row);
 
