@@ -57,6 +57,7 @@ struct ScenePose {
 // The lamp in time, and how long one reading gathers its light.
 struct SceneTime {
   bool own_lamp = true;                  // false: every figure is the manufacturer's
+  bool daylight = false;                 // neither pulses nor follows the mains
   std::optional<double> flicker_hz;      // twice the mains frequency, or the dimmer's
   std::optional<double> duty;            // lit part of a period: pulse width modulation
   std::optional<double> ripple;          // (max - min)/(max + min) of a smooth ripple

@@ -48,7 +48,7 @@ void ReadProjection(FieldReader& reader, CaptureDescription& capture) {
 void RequireForUse(FieldReader& reader, CaptureUse use) {
   switch (use) {
     case CaptureUse::kCard:
-      reader.Require({"reflectance", "distance_m"});
+      reader.Require({"reflectance"});
       return;
     case CaptureUse::kWall:
       reader.Require({"reflectance", "wall"});

@@ -175,6 +175,12 @@ class SessionReader {
     if (reader.Failed()) return;
     if (const auto strange = FindStrangeName(out_.session, capture)) {
       reader.Fail(strange->code, strange->key, strange->message);
+      return;
+    }
+    // A card in the sun stands at no distance from it.
+    const LightDescription* const light = FindLight(out_.session, capture.light);
+    if (capture.use == CaptureUse::kCard && light->kind != LightKind::kDirectional) {
+      reader.Require({"distance_m"});
     }
   }
 

@@ -142,6 +142,7 @@ std::string PartsBar(const FittedLight& light) {
                            : of_meter                                               ? 1
                            : part.name == "distance_offset"                         ? 2
                                                                                     : 3;
+    if (part.name == kCameraScale) parts[at].words = "camera and readings";
     parts[at].share += part.share;
     parts[at].sd = std::hypot(parts[at].sd, part.sd_relative);
   }

@@ -221,6 +221,7 @@ void AddPriors(const Session& session, const LightDescription& light,
 SceneTime TimeOfLamp(const Session& session, const LightDescription& light) {
   SceneTime time;
   time.filament = BurnsFilament(session, light);
+  time.daylight = ClassOfLamp(session, light.name) == LampClass::kDaylight;
   if (light.in_time.minutes_on) time.on_for_s = 60.0 * *light.in_time.minutes_on;
   time.flicker_hz = light.in_time.flicker_hz;
   time.ripple = light.in_time.flicker_depth;

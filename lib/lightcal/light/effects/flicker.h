@@ -33,6 +33,7 @@ inline constexpr double kMeterWindow_s = 0.5;
 [[nodiscard]] inline EffectFinding FindFlicker(const Scene& scene) {
   if (!scene.time.own_lamp) return NotApplicable("a data sheet's lamp does not flicker");
   if (scene.kind == LightKind::kDome) return NotApplicable("an environment does not flicker");
+  if (scene.time.daylight) return NotApplicable("daylight does not flicker");
   double window = scene.time.window_s.value_or(kMeterWindow_s);
   if (scene.picture) {
     // What a shutter that rolls sees of it is an effect of its own.

@@ -15,6 +15,7 @@ inline constexpr double kRowsDefault_s = 2e-3;
 //   bound = FlickerBound over max(exposure, time of the rows averaged).
 [[nodiscard]] inline EffectFinding FindRollingShutter(const Scene& scene) {
   if (!scene.picture) return NotApplicable("no picture");
+  if (scene.time.daylight) return NotApplicable("daylight does not flicker");
   if (scene.picture->rows_s && !(*scene.picture->rows_s > 0.0)) {
     return NotApplicable("a global shutter");
   }
