@@ -7,10 +7,12 @@ on its head. The pictures are painted here from closed forms; nothing of lightca
 import json
 import math
 import os
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 
 import numpy as np
 
@@ -129,6 +131,35 @@ def paint(path, preset, light):
         for at in np.argwhere(inside):
             picture[tuple(at)] = np.array(light(places[tuple(at)], normal)) * card['reflectance'] / math.pi * scale
     usdlux.write_exr(path, picture)
+    return picture
+
+
+D65 = [0.3127, 0.3290]
+FROM_XYZ = np.array([[3.2409699, -1.5373832, -0.4986108], [-0.9692436, 1.8759675, 0.0415551],
+                     [0.0556301, -0.2039770, 1.0569715]])
+
+
+def rgb_of(xy):
+    """Linear Rec. 709 of luminance 1."""
+    return FROM_XYZ @ np.array([xy[0] / xy[1], 1.0, (1 - xy[0] - xy[1]) / xy[1]])
+
+
+def uv_of(xy):
+    below = -2 * xy[0] + 12 * xy[1] + 3
+    return 4 * xy[0] / below, 9 * xy[1] / below
+
+
+def write_png(path, linear):
+    """8 bits, sRGB encoded."""
+    v = np.clip(linear, 0, 1)
+    codes = np.round(255 * np.where(v <= 0.0031308, 12.92 * v, 1.055 * v ** (1 / 2.4) - 0.055)).astype(np.uint8)
+
+    def chunk(kind, data):
+        return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
+    rows = b''.join(b'\0' + row.tobytes() for row in codes)
+    with open(path, 'wb') as f:
+        f.write(b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', codes.shape[1], codes.shape[0], 8, 2, 0, 0, 0))
+                + chunk(b'IDAT', zlib.compress(rows)) + chunk(b'IEND', b''))
 
 
 def load(path):
@@ -165,9 +196,13 @@ class Shapes(unittest.TestCase):
                  'fit': {'readings': 1, 'used': 1, 'rejected': [], 'learned': [], 'prior': []}}]}, f)
         return path
 
-    def check(self, pictures):
+    def check(self, pictures, *more):
         words = [w for picture, rig in pictures for w in ('--render', picture, '--rig', rig)]
-        return json.loads(run('check', *words, '--json'))
+        done = subprocess.run([LIGHTCAL, 'check', *words, *more, '--json'], capture_output=True, text=True)
+        answer = json.loads(done.stdout)
+        # 1 where it says that the picture is off, beside the whole answer.
+        self.assertEqual(done.returncode, 1 if 'error' in answer else 0, done.stdout + done.stderr)
+        return answer
 
     def painted(self, name, rigs, light):
         pictures = []
@@ -267,6 +302,123 @@ class Shapes(unittest.TestCase):
                 self.assertNotIn('not_seen', answer)
                 for lamp in answer['lamps']:
                     self.assertAlmostEqual(lamp['factor'], factors.get(lamp['name'], 1.0), delta=0.02)
+
+    def lamps(self, name, lamps):
+        """name -> (where, cd, xy); the rigs before each."""
+        path = os.path.join(self.work, name + '.json')
+        with open(path, 'w') as f:
+            json.dump({'schema': 'lightcal.light/1', 'lights': [
+                {'name': lamp, 'kind': 'point', 'position_m': where, 'effects': [], 'color': {'xy': xy},
+                 'intensity_cd': {'value': candela, 'u95': 1},
+                 'fit': {'readings': 1, 'used': 1, 'rejected': [], 'learned': [], 'prior': []}}
+                for lamp, (where, candela, xy) in lamps.items()]}, f)
+        return self.export(name, path, '--rig', *[w for lamp in list(lamps)[1:] for w in ('--rig-at', lamp)])
+
+    @staticmethod
+    def shining(lamps, colors=(), factors=()):
+        """Inverse squares, in their colours or others of the same luminance."""
+        colors, factors = dict(colors), dict(factors)
+
+        def light(place, normal):
+            rgb = np.zeros(3)
+            for name, (where, candela, xy) in lamps.items():
+                to = place - np.array(where)
+                lux = factors.get(name, 1.0) * candela * max(0.0, -(to @ normal)) / np.linalg.norm(to) ** 3
+                tint = colors.get(name, rgb_of(xy))
+                rgb += lux * tint / (tint @ WEIGHTS)
+            return rgb
+        return light
+
+    def test_a_picture_that_is_off_fails(self):
+        """Beyond --max-error, 5 % where nobody says otherwise: exit 1, as of a preset."""
+        lamps = {'lamp': ([0.0, 0, 2], 1000.0, D65)}
+        rigs = self.lamps('alone', lamps)
+        for factor, more, off in ((1.0, (), False), (1.04, (), False), (1.07, (), True), (0.93, (), True),
+                                  (1.07, ('--max-error', '10%'), False), (1.12, ('--max-error', '10%'), True),
+                                  (1 / 683, (), True), (math.pi, (), True), (1.03, ('--max-error', '1%'), True)):
+            with self.subTest(factor=factor, more=more):
+                pictures = self.painted('off', rigs, self.shining(lamps, factors={'lamp': factor}))
+                answer = self.check(pictures, *more)
+                self.assertEqual(answer.get('error', {}).get('code'), 'render_off' if off else None, answer)
+                self.assertAlmostEqual(answer['stops_off'], math.log2(factor), delta=0.01)
+        # Of several pictures each.
+        two = {'key': ([0.0, 0, 3], 900.0, D65), 'fill': ([4.0, 1, 2.5], 300.0, D65)}
+        rigs = self.lamps('two', two)
+        self.assertNotIn('error', self.check(self.painted('two', rigs, self.shining(two))))
+        answer = self.check(self.painted('two', rigs, self.shining(two, factors={'fill': 0.8})))
+        self.assertEqual(answer['error']['code'], 'render_off')
+        self.assertIn('fill', answer['error']['message'])
+
+    def test_the_codes_of_a_picture_leave_that_much_open(self):
+        """A dark picture of 8 bits: half a code of its white card is 1.6 %, so 6 % is within 5 %."""
+        lamps = {'lamp': ([0.0, 0, 2], 1000.0, D65)}
+        rigs = self.lamps('dark', lamps)
+        preset = load(rigs[0])
+        preset['exposure']['exposure'] *= 0.018  # code 39 on the white card, 9 on the grey
+        dark = os.path.join(self.work, 'dark.rig.preset.json')
+        with open(dark, 'w') as f:
+            json.dump(preset, f)
+        for factor, off in ((1.055, False), (1.15, True)):
+            exr, png = os.path.join(self.work, 'dark.exr'), os.path.join(self.work, 'dark.png')
+            picture = paint(exr, preset, self.shining(lamps, factors={'lamp': factor}))
+            write_png(png, picture)
+            answer = self.check([(png, dark)])
+            self.assertEqual('error' in answer, off, answer)
+
+    def test_the_colour_of_the_cards(self):
+        """What stands in for a lamp's colour, at its very luminance."""
+        warm, cold = [0.4254, 0.4011], [0.3127, 0.3290]  # 3200 K
+        white, blue = np.ones(3), np.array([0.6, 0.8, 1.0])
+        lamps = {'lamp': ([0.0, 0, 2], 1000.0, warm)}
+        rigs = self.lamps('warm', lamps)
+        right = self.check(self.painted('warm', rigs, self.shining(lamps)))
+        self.assertNotIn('error', right)
+        self.assertLess(right['color']['apart_uv'], 5e-4)
+        answer = self.check(self.painted('warm', rigs, self.shining(lamps, {'lamp': white})))
+        self.assertEqual((answer['cause']['code'], answer['error']['code']), ('color_missing', 'color_off'))
+        self.assertAlmostEqual(answer['color']['apart_uv'], math.dist(uv_of(warm), uv_of(D65)), delta=5e-4)
+        self.assertNotIn('divided', answer['cause']['message'])
+        # 3200 K as 2950 K is .0109 in u'v': no component is further off than .03 of the largest... or nearly.
+        near = rgb_of([0.4412, 0.4063])
+        answer = self.check(self.painted('warm', rigs, self.shining(lamps, {'lamp': near})))
+        self.assertEqual((answer['cause']['code'], answer['error']['code']), ('other_color', 'color_off'), answer)
+        # Among several, each before its own cards.
+        three = {'key': ([0.0, 0, 3], 900.0, warm), 'fill': ([4.0, 1, 2.5], 300.0, cold),
+                 'rim': ([-3.0, 5, 2], 60.0, warm)}
+        rigs = self.lamps('three', three)
+        self.assertNotIn('error', self.check(self.painted('three', rigs, self.shining(three))))
+        for changed, code in ({'key': white}, 'color_missing'), ({'rim': white}, 'color_missing'), (
+                {'fill': blue}, 'other_color'):
+            with self.subTest(changed=list(changed)):
+                answer = self.check(self.painted('three', rigs, self.shining(three, changed)))
+                self.assertEqual((answer['cause']['code'], answer['error']['code']), (code, 'color_off'), answer)
+                self.assertIn(list(changed)[0], answer['cause']['message'])
+                off = [p['color']['off'] for p in answer['pictures']]
+                self.assertTrue(off[list(three).index(list(changed)[0])], answer)
+        one = self.check(self.painted('three', rigs[:1], self.shining(three, {'key': white})))
+        self.assertEqual((one['cause']['code'], one['error']['code']), ('color_missing', 'color_off'), one)
+
+    def test_causes_that_one_picture_cannot_tell_apart(self):
+        """Twice the light 2 m from a lamp: 1/d, or a lamp twice as strong."""
+        folder = os.path.join(self.work, 'far')
+        os.mkdir(folder)
+        with open(os.path.join(folder, 'session.toml'), 'w') as f:
+            f.write('lightcal = 1\n[room]\ndark = true\n[[light]]\nname = "lamp"\nkind = "point"\n'
+                    'position_m = [0, 0, 2]\n[[reading]]\nlight = "lamp"\ndistance_m = 2\nilluminance_lx = 250\n')
+        run('fit', folder, '-o', os.path.join(self.work, 'far.json'))
+        rigs = self.export('far_rigs', os.path.join(self.work, 'far.json'), '--rig')
+        d = load(rigs[0])['rig']['separation_m']
+        self.assertAlmostEqual(d, 2, delta=0.02)
+        lamps = {'lamp': ([0.0, 0, 2], load(rigs[0])['rig']['cards'][0]['illuminance_lx'] * d * d, D65)}
+        answer = self.check(self.painted('twice', rigs, self.shining(lamps, factors={'lamp': d})))
+        codes = [answer['cause']['code']] + [c['code'] for c in answer['alternatives']]
+        self.assertEqual(codes, ['falloff_1_over_d', 'other_intensity'])
+        self.assertIn('or other_intensity: ', answer['error']['message'])
+        other = answer['alternatives'][0]
+        self.assertIn('another distance', other['message'])
+        # What neither place nor stops explain stands alone.
+        answer = self.check(self.painted('twice', rigs, self.shining(lamps, factors={'lamp': 683.0})))
+        self.assertNotIn('other_intensity', [c['code'] for c in answer['alternatives']])
 
     def test_refusals(self):
         spot = self.spot()

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lightcal/colorimetry/srgb_encoding.h"
+#include "lightcal/core/uncertain.h"
 
 namespace lightcal {
 namespace {
@@ -102,6 +103,7 @@ CardPixels MeanOver(const Sampler& sampler, const std::array<PicturePoint, 4>& q
   if (count > 0.0 && card.rgb[1] > 0.0) {
     const double variance = squares / count - card.rgb[1] * card.rgb[1];
     card.spread = std::sqrt(std::max(0.0, variance)) / card.rgb[1];
+    card.noise = kZ95 * card.spread / std::sqrt(count);
   }
   return card;
 }

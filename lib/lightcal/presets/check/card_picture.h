@@ -18,6 +18,7 @@ struct CardPixels {
   std::array<bool, 3> clipped{};
   std::array<double, 3> step{};  // one code, linear; 0 of float files
   double spread = 0.0;           // relative standard deviation of green over the card
+  double noise = 0.0;            // u95 of its mean by that spread, relative
 };
 
 // Pixels of the white and the grey card. Encoded pictures (PNG, JPEG) are read as sRGB.

@@ -34,21 +34,19 @@ double ApartFromWay(const Uv1976& at, const Uv1976& from, const Uv1976& to) {
   return Apart(at, {from.u + along * du, from.v + along * dv});
 }
 
-// What its CCT and Duv leave open.
-double U95Of(const FittedColor& color) {
+}  // namespace
+
+double ColorU95(const std::optional<Uncertain>& cct_K, const std::optional<Uncertain>& duv) {
   double u95 = 0.0;
-  const double duv = color.duv ? color.duv->value : 0.0;
-  if (color.cct_K && LowEnd(*color.cct_K) > 0.0) {
-    const auto at = [&](double kelvin) { return Uv1976FromXy(XyFromCct(Kelvin(kelvin), duv)); };
-    const Uv1976 middle = at(color.cct_K->value);
-    u95 =
-        std::max(Apart(at(LowEnd(*color.cct_K)), middle), Apart(at(HighEnd(*color.cct_K)), middle));
+  const double off = duv ? duv->value : 0.0;
+  if (cct_K && LowEnd(*cct_K) > 0.0) {
+    const auto at = [&](double kelvin) { return Uv1976FromXy(XyFromCct(Kelvin(kelvin), off)); };
+    const Uv1976 middle = at(cct_K->value);
+    u95 = std::max(Apart(at(LowEnd(*cct_K)), middle), Apart(at(HighEnd(*cct_K)), middle));
   }
   constexpr double kUv1976PerDuv = 1.5;  // v' = 1.5 v
-  return std::hypot(u95, color.duv ? kUv1976PerDuv * color.duv->u95 : 0.0);
+  return std::hypot(u95, duv ? kUv1976PerDuv * duv->u95 : 0.0);
 }
-
-}  // namespace
 
 std::vector<ComparedColor> CompareColors(const LightFile& lamps,
                                          const std::vector<EngineLight>& lights,
@@ -68,7 +66,7 @@ std::vector<ComparedColor> CompareColors(const LightFile& lamps,
           light.rgb ? UvOfRgb({(*light.rgb)[0], (*light.rgb)[1], (*light.rgb)[2]}) : std::nullopt;
       if (!stands_for || !at) continue;
       rows.push_back({lamp.name, *color.xy, ApartFromWay(*at, *own, *clipped),
-                      U95Of(lamp.color) + kRounding_uv});
+                      ColorU95(lamp.color.cct_K, lamp.color.duv) + kRounding_uv});
     }
   }
   return rows;

@@ -22,6 +22,10 @@ struct ComparedColor {
   [[nodiscard]] bool Off() const { return apart_uv > allowed_uv; }
 };
 
+// u95 in u'v' of a colour whose CCT and Duv are so unsure.
+[[nodiscard]] double ColorU95(const std::optional<Uncertain>& cct_K,
+                              const std::optional<Uncertain>& duv);
+
 // One row a light of the file that has a colour and stands for a lamp whose colour was read.
 // `white`: what the file's pipeline shows as white, where that is not D65. What Rec. 709 cannot
 // hold is clipped, in wider spaces by less: a colour is as near as the nearest between the lamp's

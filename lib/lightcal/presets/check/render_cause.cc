@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "lightcal/colorimetry/srgb_encoding.h"
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/presets/check/reader_parts.h"
@@ -117,16 +118,20 @@ std::optional<RenderCause> CurveIn(const CheckedRig& rig, const std::array<CardP
 
 // ---- the tint ----
 
-std::optional<RenderCause> TintIn(const CheckedLamp& lamp, const Rgb3& tint) {
+// `seen`: the factor by which its light is brighter.
+std::optional<RenderCause> TintIn(const CheckedLamp& lamp, const Rgb3& tint, double seen) {
   const Rgb3 want = lamp.color;
   if (SameTint(tint, want)) return std::nullopt;
   const Rgb3 decoded = Mapped(want, &SrgbDecoded);
   const Rgb3 encoded = Mapped(want, &SrgbEncoded);
   if (SameTint(tint, MaxNormalised({1.0, 1.0, 1.0}))) {
+    const double undivided = 1.0 / lamp.color_luminance;
     return RenderCause{"color_missing",
-                       "the cards are white though the lamp is not: its colour was "
-                       "not set, while its intensity is divided by that colour's luminance",
-                       1.0 / lamp.color_luminance};
+                       std::abs(std::log(seen / undivided)) < kSameFactor
+                           ? "the cards are white though the lamp is not: its colour was not set, "
+                             "while its intensity is divided by that colour's luminance"
+                           : "the cards are white though the lamp is not: its colour was not set",
+                       undivided};
   }
   if (SameTint(tint, MaxNormalised(decoded))) {
     return RenderCause{"color_read_as_srgb",
@@ -143,6 +148,45 @@ std::optional<RenderCause> TintIn(const CheckedLamp& lamp, const Rgb3& tint) {
   return RenderCause{"other_color",
                      "the cards have another tint than the lamp: its colour, the "
                      "picture's RGB space or its white balance is not what was exported"};
+}
+
+// What one of several lamps has for a colour if the others have theirs. Absent: that is none.
+std::optional<Rgb3> TintOfOne(const CheckedRig& rig, const RenderVerdict& verdict, std::size_t k) {
+  const auto rest = LightOfLamps(rig, k);
+  if (!rest) return std::nullopt;
+  Rgb3 own{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    own[c] = verdict.rgb_lx[c] / verdict.lux - (*rest)[c];
+    if (own[c] < 0.0) own[c] = own[c] > -kSameTint ? 0.0 : own[c];
+  }
+  const bool light = std::ranges::all_of(own, [](double part) { return part >= 0.0; });
+  return light && Rec709Luminance(own) > 0.0 ? std::optional(MaxNormalised(own)) : std::nullopt;
+}
+
+// Of cards that are off in u'v': the lamp that has another known colour, else the one that gives
+// them most of their light.
+RenderCause TintAmong(const CheckedRig& rig, const RenderVerdict& verdict) {
+  const std::string apart = " (" + RoundedText(verdict.color->apart_uv, 2) + " in u'v', " +
+                            RoundedText(verdict.color->allowed_uv, 2) + " allowed)";
+  constexpr double kShows = 0.2;
+  for (std::size_t k = 0; k < rig.lamp_shares.size(); ++k) {
+    if (rig.lamp_shares[k] < kShows) continue;
+    const auto tint = TintOfOne(rig, verdict, k);
+    auto cause = tint ? TintIn(rig.lamps[k], *tint, 1.0) : std::nullopt;
+    if (!cause || cause->code == "other_color") continue;
+    cause->message = rig.lamps[k].name + ": " + cause->message + apart;
+    return *std::move(cause);
+  }
+  const auto most = std::ranges::max_element(rig.lamp_shares);
+  const std::string whose =
+      rig.lamps.size() > 1
+          ? ", most of whose light is " +
+                rig.lamps[static_cast<std::size_t>(most - rig.lamp_shares.begin())].name + "'s,"
+          : "";
+  return {"other_color",
+          "the cards" + whose + " have another colour than the lamps give them" + apart +
+              ": a lamp's colour, the picture's RGB space or its white balance is not what was "
+              "exported"};
 }
 
 // ---- the factor ----
@@ -247,6 +291,48 @@ std::vector<RenderCause> KnownFactors(const CheckedRig& rig) {
 
 }  // namespace
 
+namespace {
+
+// Whether the factor is one of the place of these cards, and another elsewhere.
+bool IsOfPlace(const RenderCause& cause, bool on_axis) {
+  constexpr std::array<std::string_view, 3> kOfDistance = {"falloff_1_over_d", "falloff_none",
+                                                           "default_range"};
+  constexpr std::array<std::string_view, 5> kOfAngle = {"full_cone_for_half", "half_cone_for_full",
+                                                        "inner_cone_missing", "penumbra_missing",
+                                                        "other_cone_law"};
+  return std::ranges::find(kOfDistance, cause.code) != kOfDistance.end() ||
+         (!on_axis && std::ranges::find(kOfAngle, cause.code) != kOfAngle.end());
+}
+
+bool IsWholeStops(double log_factor) {
+  const double stops = log_factor / std::numbers::ln2;
+  return std::abs(stops - std::round(stops)) * std::numbers::ln2 < kSameFactor &&
+         std::round(stops) != 0.0 && std::abs(stops) < 4.5;
+}
+
+// What a lamp or an exposure that somebody changed does, beside a mistake of the same factor.
+std::optional<RenderCause> ChangedIntensity(const CheckedRig& rig,
+                                            const std::vector<RenderCause>& fits, double factor) {
+  const bool on_axis = rig.off_axis_deg == 0.0;
+  const auto placed = std::ranges::find_if(
+      fits, [&](const RenderCause& cause) { return IsOfPlace(cause, on_axis); });
+  if (placed == fits.end() && !IsWholeStops(std::log(factor))) return std::nullopt;
+  std::string message = "the intensity or the exposure was changed by this factor (" +
+                        RoundedText(std::log2(factor), 2) + " stops)";
+  if (placed != fits.end() && on_axis) {
+    message += ". A picture of a rig at another distance than " + RoundedText(rig.separation_m, 3) +
+               " m tells them apart: this stays as it is there, " + placed->code + " does not";
+  } else if (placed != fits.end()) {
+    message += ". A picture of the rig on the axis tells them apart: this stays as it is there, " +
+               placed->code + " does not";
+  } else {
+    message += ". Its files tell them apart: look at the numbers there";
+  }
+  return RenderCause{"other_intensity", std::move(message), factor};
+}
+
+}  // namespace
+
 std::vector<RenderCause> CausesOfFactor(const CheckedRig& rig, double factor) {
   const double seen = std::log(factor);
   std::vector<RenderCause> fits;
@@ -263,6 +349,8 @@ std::vector<RenderCause> CausesOfFactor(const CheckedRig& rig, double factor) {
                     "tint and contrast are right and no known mistake has this factor: exposure "
                     "is automatic or not the rig's, or another light is on",
                     factor});
+  } else if (auto changed = ChangedIntensity(rig, fits, factor)) {
+    fits.push_back(*std::move(changed));
   }
   return fits;
 }
@@ -282,6 +370,21 @@ void NameFactor(const CheckedRig& rig, RenderVerdict& verdict) {
   verdict.alternatives.assign(fits.begin() + 1, fits.end());
 }
 
+// u95 of what the cards show, by what the picture leaves open.
+void TakeDoubts(const std::array<CardPixels, 2>& cards, RenderVerdict& verdict) {
+  std::optional<double> least;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& clipped = cards[i].clipped;
+    if (clipped[0] || clipped[1] || clipped[2]) continue;
+    Rgb3 by_channel{};
+    for (std::size_t c = 0; c < 3; ++c) by_channel[c] = UnsureOfCard(cards[i], c) * cards[i].rgb[c];
+    const double all = Rec709Luminance(cards[i].rgb);
+    verdict.card_u95[i] = all > 0.0 ? Rec709Luminance(by_channel) / all : 0.0;
+    least = std::min(least.value_or(*verdict.card_u95[i]), *verdict.card_u95[i]);
+  }
+  verdict.lux_u95 = least.value_or(0.0);
+}
+
 }  // namespace
 
 Result<RenderVerdict> JudgeRender(const CheckedRig& rig, const std::array<CardPixels, 2>& cards,
@@ -299,6 +402,8 @@ Result<RenderVerdict> JudgeRender(const CheckedRig& rig, const std::array<CardPi
   for (std::size_t i = 0; i < 2; ++i) {
     verdict.card_lx[i] = Rec709Luminance(cards[i].rgb) / rig.cards[i].reflectance * lux_per_pixel;
   }
+  TakeDoubts(cards, verdict);
+  verdict.color = ColorOfCards(rig, cards, *white);
   if (!(verdict.lux > 0.0) || cards[1].raw[1] < 2.0 * cards[1].step[1]) {
     return Refused("too_dark", picture,
                    "the cards are black: " + rig.lamps[rig.lamp].name +
@@ -317,7 +422,9 @@ Result<RenderVerdict> JudgeRender(const CheckedRig& rig, const std::array<CardPi
     return verdict;
   }
   if (rig.lamps.size() == 1) {
-    if (auto tint = TintIn(rig.lamps.front(), MaxNormalised(*white))) {
+    const double seen = verdict.lux / verdict.expected_lx;
+    if (auto tint = TintIn(rig.lamps.front(), MaxNormalised(*white), seen)) {
+      verdict.color_cause = tint;
       verdict.cause = *std::move(tint);
       return verdict;
     }
@@ -326,6 +433,10 @@ Result<RenderVerdict> JudgeRender(const CheckedRig& rig, const std::array<CardPi
     }
   }
   NameFactor(rig, verdict);
+  if (verdict.color && verdict.color->Off()) {
+    verdict.color_cause = TintAmong(rig, verdict);
+    if (verdict.cause.code == "none") verdict.cause = *verdict.color_cause;
+  }
   return verdict;
 }
 

@@ -9,6 +9,7 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/presets/check/card_picture.h"
+#include "lightcal/presets/check/rendered_color.h"
 #include "lightcal/presets/check/rig_file.h"
 #include "lightcal/presets/preset_table.h"
 
@@ -25,11 +26,19 @@ struct RenderVerdict {
   double lux = 0.0, expected_lx = 0.0;
   std::array<double, 3> rgb_lx{};  // of a perfectly white card; linear Rec. 709
   std::array<double, 2> card_lx{};
+  // u95 that the picture itself leaves open (codes, noise), relative: of a card, clipped ones
+  // absent, and of lux.
+  std::array<std::optional<double>, 2> card_u95{};
+  double lux_u95 = 0.0;
+  std::optional<RenderedColor> color;      // of the cards, against what the lamps give them
+  std::optional<RenderCause> color_cause;  // where that is off
   RenderCause cause;
   std::vector<RenderCause> alternatives;  // others that explain it as well
 };
 
-// Known mistakes of such a factor, the nearest first; where none is, exposure_unlocked.
+// Known mistakes of such a factor, the nearest first; where none is, exposure_unlocked. Beside a
+// mistake of the very distance or angle of these cards, or of whole stops, other_intensity: what a
+// changed intensity would look like, and which picture tells them apart.
 [[nodiscard]] std::vector<RenderCause> CausesOfFactor(const CheckedRig& rig, double factor);
 
 // Lux of the cards, Lambert: E = pi pixel/(reflectance scale). Clipped channels are left out; a

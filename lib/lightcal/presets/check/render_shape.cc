@@ -117,6 +117,8 @@ void AddOthers(std::span<const SeenRig> seen, std::vector<RenderCause>& causes) 
   for (const SeenRig& one : seen) {
     if (one.rig->off_axis_deg != 0.0 || one.verdict->cause.code == "none") continue;
     causes.push_back(one.verdict->cause);
+    const auto& alternatives = one.verdict->alternatives;
+    causes.insert(causes.end(), alternatives.begin(), alternatives.end());
     return;
   }
 }
@@ -324,6 +326,13 @@ std::vector<RenderCause> CausesOf(std::span<const SeenRig> seen) {
 
 std::vector<RenderCause> JudgeTogether(std::span<const SeenRig> seen) {
   std::vector<RenderCause> causes = CausesOf(seen);
+  const auto furthest = std::ranges::max_element(seen, {}, [](const SeenRig& one) {
+    const auto& color = one.verdict->color;
+    return one.verdict->color_cause && color ? color->apart_uv / color->allowed_uv : 0.0;
+  });
+  if (causes.front().code == "none" && furthest->verdict->color_cause) {
+    causes.front() = *furthest->verdict->color_cause;
+  }
   NameLampsNotSeen(seen, causes.front());
   return causes;
 }

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lightcal/core/uncertain.h"
 #include "lightcal/core/units.h"
+#include "lightcal/presets/check/compare_colors.h"
 #include "lightcal/presets/learnt_engine.h"
 #include "lightcal/records/json_codec.h"
 
@@ -65,11 +67,25 @@ CheckedCard CardFrom(Finder& find, const Node& rig, const Node& json) {
   return card;
 }
 
+// {"value", "u95", "low95"?, "high95"?}; absent where it is none.
+std::optional<Uncertain> UncertainIn(const Node& json, const char* key) {
+  const Node* node = json.Find(key);
+  const auto number = [&](const char* part) -> std::optional<double> {
+    const Node* found = node == nullptr ? nullptr : node->Find(part);
+    return found != nullptr && found->IsNumber() ? std::optional(found->number) : std::nullopt;
+  };
+  const auto value = number("value"), u95 = number("u95");
+  if (!value || !u95) return std::nullopt;
+  return Uncertain{*value, *u95, number("low95"), number("high95")};
+}
+
 CheckedLamp LampFrom(Finder& find, const Node& json) {
   CheckedLamp lamp;
   lamp.name = find.Text(json, "name");
   lamp.kind = find.Text(json, "kind");
-  const Node& rgb = find.Part(find.Part(json, "color"), "rec709_linear");
+  const Node& color = find.Part(json, "color");
+  const Node& rgb = find.Part(color, "rec709_linear");
+  lamp.color_u95_uv = ColorU95(UncertainIn(color, "cct_K"), UncertainIn(color, "duv"));
   lamp.color = find.Triple(rgb, "max_normalised");
   lamp.color_luminance = find.Number(rgb, "luminance_of_max_normalised");
   const Node& geometry = find.Part(json, "geometry");

@@ -24,6 +24,7 @@ struct CheckedLamp {
   std::string name, kind;
   std::array<double, 3> color{1.0, 1.0, 1.0};  // linear Rec. 709, largest component 1
   double color_luminance = 1.0;
+  double color_u95_uv = 0.0;                // of what was read of it, in u'v'
   double inner_deg = 0.0, outer_deg = 0.0;  // outer 0 = no cone
   double surface_m2 = 0.0;                  // 0 = has none, or nobody stated it
 };
