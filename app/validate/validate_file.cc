@@ -14,6 +14,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/check/read_preset.h"
 #include "lightcal/presets/check/rig_file.h"
+#include "lightcal/presets/check/whole_text.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/accuracy_profile.h"
 #include "lightcal/records/camera_profile.h"
@@ -246,6 +247,27 @@ std::string HeldInsteadOfLights(const std::string& text) {
   return format == "godot" && sky ? "a panorama, no lamp" : "";
 }
 
+// The scripts whose presets are read: what runs around them is Python's and JavaScript's to judge.
+struct PresetScript {
+  std::string_view target, script, language;
+};
+constexpr PresetScript kPresetScripts[] = {{"blender", "blender.py", "Python"},
+                                           {"three", "three.js", "JavaScript"}};
+
+// That a script was edited, or is of another version: only one that is as written runs for sure.
+Warnings ScriptNotChecked(const std::string& text, const std::string& path) {
+  const PresetTarget* target = TargetOfFile(path);
+  for (const PresetScript& one : kPresetScripts) {
+    if (target == nullptr || target->name != one.target || IsOwnScript(text, one.script)) continue;
+    return {{"script_not_checked", path,
+             "its lights were read, but the script around them is not as this lightcal writes it: "
+             "edited, or of another version. Its brackets close; whether " +
+                 std::string(one.language) +
+                 " takes it was not checked: run it there, or export it again"}};
+  }
+  return {};
+}
+
 void ValidateEngineFile(const std::string& text, FileVerdict& verdict) {
   verdict.format = "engine file";
   const auto lights = LightsIfAny(verdict.path, text, FilesBeside(verdict.path));
@@ -256,7 +278,10 @@ void ValidateEngineFile(const std::string& text, FileVerdict& verdict) {
   verdict.holds = lights->empty() ? HeldInsteadOfLights(text) : Counted(lights->size(), "light");
   if (verdict.holds.empty()) {
     verdict.error = Error{ErrorKind::kRefused, "bad_preset", verdict.path, "holds no light"};
+    return;
   }
+  verdict.warnings = ScriptNotChecked(text, verdict.path);
+  if (!verdict.warnings.empty()) verdict.holds += ", its script not checked";
 }
 
 // A panorama's picture beside the preset that names it: <stem>-<light>.exr of a <stem>.* of ours.

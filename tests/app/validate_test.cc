@@ -102,6 +102,93 @@ TEST(ValidateCommand, RefusesWhatIsCutOff) {
   EXPECT_THAT(check.err, HasSubstr("cut off"));
 }
 
+// What no engine can use is no preset, whole as it is: by KHR_lights_punctual, and by what a
+// number is. check says so, too.
+TEST(ValidateCommand, RefusesWhatNoEngineCanUse) {
+  const TempDir folder;
+  const std::string out = folder.path() + "/out";
+  const std::string session = SampleData("sessions/three_real_lights");
+  ASSERT_EQ(RunLightcal({"run", session, "-o", out, "--jobs", "1"}).exit_code, 0);
+  const std::string stem = out + "/three_real_lights";
+  const json whole = json::parse(ReadFile(stem + ".gltf"));
+  const auto with = [&](const json& patch) {
+    json document = whole;
+    json& light = document["extensions"]["KHR_lights_punctual"]["lights"][0];
+    light.merge_patch(patch);
+    return document.dump();
+  };
+  const auto cone = [](double inner, double outer) {
+    return json{{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}};
+  };
+  const struct {
+    json patch;
+    const char* said;
+  } kFaults[] = {{{{"intensity", -5.0}}, "its intensity is below 0"},
+                 {{{"type", "pint"}}, "none of point, spot, directional"},
+                 {cone(0.9, 0.5), "innerConeAngle"},
+                 {cone(0.5, 0.5), "innerConeAngle"},
+                 {cone(-0.1, 0.5), "innerConeAngle"},
+                 {cone(0.1, 1.6), "beyond pi/2"},
+                 {{{"color", {1.7, 1.0, 1.0}}}, "color"},
+                 {{{"color", {1.0, -0.1, 1.0}}}, "color"},
+                 {{{"range", 0.0}}, "range"}};
+  for (const auto& fault : kFaults) {
+    const std::string file = folder.Write("wrong.gltf", with(fault.patch));
+    const CliResult validated = RunLightcal({"validate", file});
+    EXPECT_EQ(validated.exit_code, 3) << fault.patch;
+    EXPECT_THAT(validated.out, HasSubstr(fault.said));
+    const CliResult checked = RunLightcal({"check", file, "--session", session});
+    EXPECT_EQ(checked.exit_code, 3) << fault.patch;
+    EXPECT_THAT(checked.err, HasSubstr(fault.said));
+  }
+  const std::string right = folder.Write("right.gltf", with(cone(0.0, 1.5707963)));
+  EXPECT_EQ(RunLightcal({"validate", right}).exit_code, 0);
+  // The first of it: "= 203.38" -> "= x203.38".
+  const auto with_x = [&](const std::string& ending, const std::string& key) {
+    std::string text = ReadFile(stem + ending);
+    const std::size_t at = text.find(key + " = ");
+    EXPECT_NE(at, std::string::npos) << ending;
+    return folder.Write("wrong" + ending, text.insert(at + key.size() + 3, "x"));
+  };
+  for (const std::string& file :
+       {with_x(".tscn", "light_intensity_lumens"), with_x(".tscn", "omni_range"),
+        with_x(".usda", "inputs:intensity")}) {
+    for (const CliResult& result :
+         {RunLightcal({"validate", file}), RunLightcal({"check", file, "--session", session})}) {
+      EXPECT_EQ(result.exit_code, 3) << file;
+      EXPECT_THAT(result.out + result.err, HasSubstr("is no number: x"));
+    }
+  }
+}
+
+// No Python is asked: a script that is as written runs, of another only its brackets are known.
+TEST(ValidateCommand, SaysThatAnEditedScriptWasNotChecked) {
+  const TempDir folder;
+  const std::string out = folder.path() + "/out";
+  ASSERT_EQ(RunLightcal({"run", SampleData("sessions/three_real_lights"), "-o", out, "--jobs", "1"})
+                .exit_code,
+            0);
+  for (const std::string& ending : {std::string(".blender.py"), std::string(".three.js")}) {
+    const std::string text = ReadFile(out + "/three_real_lights" + ending);
+    const std::string own = folder.Write("own" + ending, text);
+    EXPECT_EQ(RunLightcal({"validate", own, "--strict"}).exit_code, 0) << ending;
+    const std::size_t at = text.find(ending == ".three.js" ? "\nfunction " : "\ndef ");
+    ASSERT_NE(at, std::string::npos);
+    const std::string edited =
+        folder.Write("edited" + ending, std::string(text).insert(at, "\n* 3 wrong"));
+    const json file = FileIn(edited);
+    EXPECT_THAT(file["holds"], HasSubstr("its script not checked"));
+    const CliResult result = RunLightcal({"validate", edited, "--strict"});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr("was not checked"));
+  }
+  const std::string text = ReadFile(out + "/three_real_lights.blender.py");
+  const std::size_t def = text.find("\ndef ");
+  const std::string open =
+      folder.Write("open.blender.py", std::string(text).insert(def, "\nx = (1"));
+  EXPECT_EQ(RunLightcal({"validate", open}).exit_code, 3);
+}
+
 // Exported before scenes said by which line they end.
 TEST(ValidateCommand, RefusesALightOfAnOldSceneThatIsCutOff) {
   const TempDir folder;

@@ -72,8 +72,7 @@ void RequireItsCall(std::string_view text) {
   if (text.substr(guard).find("run(") == std::string_view::npos) {
     ThrowCutOff("the call of run() that ends the script");
   }
-  const std::size_t line = text.rfind('\n', guard);
-  RequireClosed(text.substr(line == std::string_view::npos ? 0 : line), kPythonSyntax);
+  RequireClosed(text, kPythonSyntax);
 }
 
 }  // namespace

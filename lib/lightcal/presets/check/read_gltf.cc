@@ -39,6 +39,29 @@ SceneFrame FrameOf(const Json& node) {
   return frame;
 }
 
+void Require(bool holds, const std::string& light, const char* what) {
+  if (!holds) throw std::runtime_error(light + ": " + what);
+}
+
+// What KHR_lights_punctual allows; engines refuse or repair anything else, each in its own way.
+void RequireLimits(const EngineLight& light, const Json& definition, const std::string& type) {
+  const std::string& name = light.name;
+  Require(type == "point" || type == "spot" || type == "directional", name,
+          "its type is none of point, spot, directional");
+  Require(definition.value("intensity", 1.0) >= 0.0, name, "its intensity is below 0");
+  for (const double part : light.rgb.value_or(Vec3{})) {
+    Require(part >= 0.0 && part <= 1.0, name, "its color has a component outside of 0 to 1");
+  }
+  Require(!definition.contains("range") || light.range_m > 0.0, name, "its range is not above 0");
+  if (type != "spot") return;
+  // A hair for numbers that were written with fewer digits.
+  constexpr double kHalfTurn = std::numbers::pi / 2.0 + 1e-6;
+  Require(light.inner_rad >= 0.0 && light.inner_rad < light.outer_rad, name,
+          "its innerConeAngle is not from 0 to below its outerConeAngle");
+  Require(light.outer_rad <= kHalfTurn, name,
+          "its outerConeAngle is beyond pi/2: angles are radians from the axis");
+}
+
 // A scale moves what hangs below and makes no light brighter.
 EngineLight FromGltf(const Json& node, const SceneFrame& frame, const Json& definition) {
   EngineLight light;
@@ -57,6 +80,7 @@ EngineLight FromGltf(const Json& node, const SceneFrame& frame, const Json& defi
     light.inner_rad = spot.value("innerConeAngle", 0.0);
     light.outer_rad = spot.value("outerConeAngle", std::numbers::pi / 4.0);
   }
+  RequireLimits(light, definition, type);
   light.position_m = FromYUp(frame.origin);
   light.aim = FromYUp(UnitAlong(light.name, frame.z)) * -1.0;
   if (node.contains("extras")) light.offset_m = OffsetIn(node["extras"].value("lightcal", Json()));

@@ -30,9 +30,7 @@ struct Section {
   [[nodiscard]] double Number(const std::string& key, double by_default) const {
     const auto it = values.find(key);
     if (it == values.end()) return by_default;
-    const auto numbers = NumbersIn(it->second);
-    if (numbers.size() != 1) throw std::runtime_error(name + ": " + key + " is no number");
-    return numbers.front();
+    return OneNumber(name + ": " + key, it->second);
   }
   [[nodiscard]] double Positive(const std::string& key, double by_default) const {
     return Above0(name + ": " + key, Number(key, by_default));
@@ -108,8 +106,7 @@ std::vector<Section> SectionsOf(const std::string& text) {
 Vec3 LinearColor(const Section& section, const char* key) {
   const auto it = section.values.find(key);
   if (it == section.values.end()) return {1.0, 1.0, 1.0};
-  const auto c = NumbersIn(it->second);
-  if (c.size() != 4) throw std::runtime_error(section.name + ": " + key + " is no Color");
+  const auto c = NumbersOf(section.name + ": " + key, it->second, 4);
   return {SrgbDecoded(c[0]), SrgbDecoded(c[1]), SrgbDecoded(c[2])};
 }
 
@@ -146,8 +143,7 @@ std::string InMetadata(const Section& node, const std::string& key) {
 SceneFrame FrameOf(const Section& node) {
   const auto it = node.values.find("transform");
   if (it == node.values.end()) return {};
-  const auto t = NumbersIn(it->second);
-  if (t.size() != 12) throw std::runtime_error(node.name + ": transform has not twelve numbers");
+  const auto t = NumbersOf(node.name + ": transform", it->second, 12);
   return {{t[0], t[3], t[6]}, {t[1], t[4], t[7]}, {t[2], t[5], t[8]}, {t[9], t[10], t[11]}};
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/exporters.h"
 #include "lightcal/records/photometric_codec.h"
 
@@ -98,6 +99,35 @@ std::vector<double> NumbersIn(std::string_view text) {
     }
     in_word = letter || (in_word && digit);
     ++at;
+  }
+  return numbers;
+}
+
+double OneNumber(const std::string& what, std::string_view text) {
+  const std::string_view trimmed = TrimBlanks(text);
+  double value = 0.0;
+  const char* const end = trimmed.data() + trimmed.size();
+  const auto [next, error] = std::from_chars(trimmed.data(), end, value);
+  if (error != std::errc() || next != end || !std::isfinite(value)) {
+    throw std::runtime_error(what + " is no number: " + std::string(trimmed));
+  }
+  return value;
+}
+
+std::vector<double> NumbersOf(const std::string& what, std::string_view text, std::size_t count) {
+  const std::size_t open = std::min(text.find('('), text.size());
+  std::string_view rest = text.substr(std::min(open + 1, text.size()));
+  std::vector<double> numbers;
+  const std::size_t close = rest.rfind(')');
+  if (close == std::string_view::npos) throw std::runtime_error(what + " is no list of numbers");
+  rest = rest.substr(0, close);
+  while (!rest.empty()) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    numbers.push_back(OneNumber(what, rest.substr(0, comma)));
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  if (numbers.size() != count) {
+    throw std::runtime_error(what + " has not " + std::to_string(count) + " numbers");
   }
   return numbers;
 }

@@ -3,6 +3,7 @@
 // cannot hide in both. All throw std::exception with what is wrong.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,12 @@ template <class Rgb>
 void RequireFinite(const std::vector<EngineLight>& lights);
 // The value; throws where it is not above 0, naming `what`.
 [[nodiscard]] double Above0(const std::string& what, double value);
+
+// The one number that a text is; throws where it is none, naming `what`.
+[[nodiscard]] double OneNumber(const std::string& what, std::string_view text);
+// Those of "Color(1, .5, 0, 1)" or "(1, 0, 0)", `count` and nothing else; throws as well.
+[[nodiscard]] std::vector<double> NumbersOf(const std::string& what, std::string_view text,
+                                            std::size_t count);
 
 // The {...} that starts at or after `from`, by its braces.
 [[nodiscard]] std::string ObjectFrom(const std::string& text, std::size_t from);

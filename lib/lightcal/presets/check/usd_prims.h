@@ -28,9 +28,7 @@ struct UsdPrim {
     const std::string& text = Text(key);
     if (text.empty()) return by_default;
     if (text == "true" || text == "false") return text == "true" ? 1.0 : 0.0;
-    const auto numbers = NumbersIn(text);
-    if (numbers.size() != 1) throw std::runtime_error(name + ": " + key + " is no number");
-    return numbers.front();
+    return OneNumber(name + ": " + key, std::string_view(text).substr(0, text.find(" (")));
   }
   [[nodiscard]] bool On(const std::string& key) const { return Number(key, 0.0) != 0.0; }
 };

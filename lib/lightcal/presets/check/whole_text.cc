@@ -5,6 +5,9 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "lightcal/presets/check/reader_parts.h"
+#include "lightcal/presets/scripts.h"
+
 namespace lightcal {
 namespace {
 
@@ -100,6 +103,21 @@ void RequireClosed(std::string_view text, const TextSyntax& syntax) {
     open.pop_back();
   }
   if (!open.empty()) ThrowCutOff("the " + open.substr(open.size() - 1) + " of its last part");
+}
+
+bool IsOwnScript(std::string_view text, std::string_view script) {
+  constexpr std::string_view kMark = "@DATA@";
+  const std::string_view own = Script(script);
+  const std::size_t mark = own.find(kMark);
+  const std::string_view head = own.substr(0, mark), tail = own.substr(mark + kMark.size());
+  if (text.size() < head.size() + tail.size() || !text.starts_with(head) || !text.ends_with(tail)) {
+    return false;
+  }
+  const std::string data(text.substr(head.size(), text.size() - head.size() - tail.size()));
+  const std::size_t end = data.find_last_not_of(" \r\n") + 1;
+  const bool quoted = head.find("json.loads(") != std::string_view::npos;
+  if (quoted && data.find(39) != std::string::npos) return false;  // an apostrophe
+  return ObjectFrom(data, 0) == data.substr(0, end);
 }
 
 }  // namespace lightcal

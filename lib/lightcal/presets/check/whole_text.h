@@ -23,6 +23,10 @@ inline constexpr TextSyntax kUsdaSyntax{"\"'", "\"'", "@", "#", "", "", false};
 // the text.
 void RequireClosed(std::string_view text, const TextSyntax& syntax);
 
+// Whether a preset's script is, but for its preset, the very one that lightcal writes
+// (presets/scripts), so that it runs as that does. `script`: its name there, "blender.py".
+[[nodiscard]] bool IsOwnScript(std::string_view text, std::string_view script);
+
 // That it was cut off, and that `what` is missing.
 [[noreturn]] void ThrowCutOff(const std::string& what);
 
