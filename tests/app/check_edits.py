@@ -14,6 +14,9 @@ import sys
 import tempfile
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "engines" / "render"))
+import cases  # a lamp whose candela depend on both angles, and where it hangs
+
 LIGHTCAL = str(pathlib.Path(sys.argv.pop(1)).resolve())
 
 
@@ -57,6 +60,16 @@ LOOSE = [light("bulb", 'kind = "point"', falling(47.0)),
          light("sun", 'kind = "directional"', ["illuminance_lx = 98000"])]
 
 
+# As they hang: a spot, a panel and a luminaire of another light on each side.
+HUNG = [light("key", 'kind = "spot"\ninner_deg = 15\nouter_deg = 25\nposition_m = [0, 0, 3]\naim = [0.6, 0, -0.8]',
+              falling(4000.0)),
+        light("panel", 'kind = "rect"\nsize_m = [0.6, 0.3]\nposition_m = [2, 0, 3]\naim = [0, 0.6, -0.8]',
+              [f"distance_m = {d}\nilluminance_lx = {lux}" for d, lux in ((3, 88.0), (5, 31.9))]),
+        light("luminaire", f'kind = "photometric"\ndistribution = "lamp.ies"\nposition_m = {cases.POSITION}\n'
+              f'aim = {cases.AIM}', falling(1000.0))]
+HUNG_FILES = ["gltf", "usda", "tscn", "blender.py", "three.js", "filament.json", "preset.json"]
+
+
 class Edited(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -66,6 +79,8 @@ class Edited(unittest.TestCase):
         cls.rig = cls.session("rig", RIG, "gltf", "usd", "godot", "json", "ies")
 
         cls.rim = cls.session("rim", RIM, "usd", "json", "ies")
+        cls.hung = cls.session("hung", HUNG, "gltf", "usd", "godot", "blender", "three", "filament",
+                               "json", "ies")
         cls.loose = cls.session("loose", LOOSE, "gltf", "usd", "three", "blender", "filament")
 
     @classmethod
@@ -77,6 +92,8 @@ class Edited(unittest.TestCase):
         home = cls.at / name
         home.mkdir()
         (home / "session.toml").write_text(session_text(lights))
+        with open(home / "lamp.ies", "w", newline="") as ies:
+            ies.write(cases.ies_text())
         lamps = home / f"{name}.json"
         for words in (("fit", home, "-o", lamps),
                       ("export", lamps, "--to", ",".join(targets), "-o", home / "out")):
@@ -322,6 +339,44 @@ class Edited(unittest.TestCase):
         def lifted(document):
             [n for n in document["nodes"] if n["name"] == "bulb"][0]["translation"][1] += 1.0
         self.assertIn("bulb", self.check(self.rig, self.gltf(self.rig, lifted))[1])
+
+    # ---- preset.json's numbers for engines ----
+
+    def test_every_number_for_engines(self):
+        """Each figure of derived, color, pre_exposed and geometry by itself, half as large again."""
+        path = self.hung / "out" / "hung.preset.json"
+        edited = self.hung / "out" / "edited.preset.json"
+
+        def leaves(node, place):
+            for key, value in (node.items() if isinstance(node, dict) else enumerate(node)):
+                if isinstance(value, (dict, list)):
+                    yield from leaves(value, place + [key])
+                elif isinstance(value, (int, float)) and not isinstance(value, bool):
+                    yield place + [key]
+        document = json.loads(path.read_text())
+        places = [["lights", i, part, *rest] for i, lamp in enumerate(document["lights"])
+                  for part in ("derived", "color", "pre_exposed", "geometry") if part in lamp
+                  for rest in leaves(lamp[part], [])]
+        silent, tried = [], 0
+        for place in places[::7]:
+            document = json.loads(path.read_text())
+            node = document
+            for key in place[:-1]:
+                node = node[key]
+            # What is next to nothing beside its fellows, or places a lamp, may be anything.
+            if abs(node[place[-1]]) < 1e-3 or place[2] == "geometry" and place[3] in ("position_m", "aim", "axis"):
+                continue
+            fellows = [abs(v) for v in node if isinstance(v, (int, float))] if isinstance(node, list) else []
+            if fellows and abs(node[place[-1]]) * 0.5 < 0.06 * max(fellows):
+                continue
+            node[place[-1]] *= 1.5
+            edited.write_text(json.dumps(document))
+            tried += 1
+            if call("check", edited, "--session", self.hung).returncode == 0:
+                silent.append(place)
+        edited.unlink()
+        self.assertGreater(tried, 40)
+        self.assertEqual(silent, [])
 
     # ---- mistakes that have a name ----
 
