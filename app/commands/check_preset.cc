@@ -19,7 +19,9 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/presets/check/compare_colors.h"
 #include "lightcal/presets/check/compare_derived.h"
+#include "lightcal/presets/check/compare_emission.h"
 #include "lightcal/presets/check/compare_readings.h"
+#include "lightcal/presets/check/fresh_preset.h"
 #include "lightcal/presets/check/read_preset.h"
 #include "lightcal/presets/preset_table.h"
 #include "preset_input.h"
@@ -117,11 +119,52 @@ Node DerivedNode(const DerivedOff& one) {
           {"derived", one.derived}};
 }
 
+Node EmissionNode(const EmissionOff& one) {
+  return {{"light", one.light},
+          {"off_axis_deg", one.off_axis_deg},
+          {"round_deg", one.round_deg},
+          {"given", one.given},
+          {"exported", one.exported}};
+}
+
+// Lamps that share out their light otherwise than in what export makes of them here, in any form of
+// its spots. Absent: this engine's file is not made of these lamps, or holds no place of a light.
+std::optional<std::vector<EmissionOff>> BeamsOff(const PresetTarget& target,
+                                                 const CalibratedSession& calibrated,
+                                                 const std::vector<EngineLight>& lights,
+                                                 double max_error) {
+  std::optional<std::vector<EmissionOff>> fewest;
+  for (const SpotForm form : {SpotForm::kAuto, SpotForm::kIes, SpotForm::kCone}) {
+    auto fresh = FreshPresetOf(target, calibrated.lights, form);
+    if (!fresh) continue;
+    // A preset.json whose distribution was not copied with it holds the cone beside it.
+    std::erase_if(fresh->lights, [&](const EngineLight& one) {
+      return target.name == "json" && one.kind == EngineLightKind::kTable &&
+             std::ranges::any_of(lights, [&](const EngineLight& light) {
+               return light.name == one.name && light.kind != EngineLightKind::kTable;
+             });
+    });
+    if (std::ranges::none_of(fresh->lights, &EngineLight::placed)) continue;
+    auto off = CompareEmission(calibrated.session, lights, fresh->lights, max_error);
+    if (!fewest || off.size() < fewest->size()) fewest = std::move(off);
+    if (fewest->empty()) break;
+  }
+  return fewest;
+}
+
+std::string BeamText(const EmissionOff& one) {
+  std::string place = RoundedText(one.off_axis_deg, 3) + "° off its axis";
+  if (one.round_deg != 0.0) place += ", " + RoundedText(one.round_deg, 3) + "° round it,";
+  return one.light + " gives " + PercentText(one.given) + " of its brightest " + place +
+         " instead of " + PercentText(one.exported);
+}
+
 // How a file is not the session's, whatever its readings say.
 struct OtherFaults {
   std::vector<std::string> missing, extra;  // lights, by name
   std::vector<ComparedColor> colors;
-  std::vector<DerivedOff> derived;  // of a preset.json
+  std::vector<DerivedOff> derived;                // of a preset.json
+  std::optional<std::vector<EmissionOff>> beams;  // absent: not compared
 };
 
 std::optional<Error> OtherFault(const PresetCheck& options, const OtherFaults& faults) {
@@ -137,6 +180,12 @@ std::optional<Error> OtherFault(const PresetCheck& options, const OtherFaults& f
     return fault("extra_lights", "shows " + std::to_string(faults.extra.size()) +
                                      " that the session has not: " + Joined(faults.extra) +
                                      ". What they shine comes on top of the lamps");
+  }
+  if (faults.beams && !faults.beams->empty()) {
+    return fault("beam_off", "has another cone, size or turn than an export of these lamps: " +
+                                 Joined(*faults.beams, "; ", BeamText) +
+                                 ". Export it again; what was exported with --engine for another "
+                                 "renderer is checked by a picture");
   }
   std::vector<ComparedColor> off = faults.colors;
   std::erase_if(off, [](const ComparedColor& color) { return !color.Off(); });
@@ -195,12 +244,14 @@ Result<void> CheckPreset(const PresetCheck& options, Console& console) {
   if (auto there = ToStates(options, *calibrated, console); !there) return there;
   const auto rows = ComparedWith(*calibrated, *lights);
   const PresetTarget* target = TargetOfFile(options.file);
-  const OtherFaults faults = {LampsMissing(calibrated->session, calibrated->lights, *lights),
-                              LightsBeyond(calibrated->session, *lights),
-                              CompareColors(calibrated->lights, *lights, words->white),
-                              target != nullptr && target->name == "json"
-                                  ? CompareDerived(*text, calibrated->lights, *max_error)
-                                  : std::vector<DerivedOff>{}};
+  const OtherFaults faults = {
+      LampsMissing(calibrated->session, calibrated->lights, *lights),
+      LightsBeyond(calibrated->session, *lights),
+      CompareColors(calibrated->lights, *lights, words->white),
+      target != nullptr && target->name == "json"
+          ? CompareDerived(*text, calibrated->lights, *max_error)
+          : std::vector<DerivedOff>{},
+      target != nullptr ? BeamsOff(*target, *calibrated, *lights, *max_error) : std::nullopt};
   const std::vector<LampRms> lamps = RmsByLamp(rows);
   const auto rms = RmsOf(rows);
   if (!rms) {
@@ -243,19 +294,25 @@ Result<void> CheckPreset(const PresetCheck& options, Console& console) {
                            [](const EngineLight& light) { return light.rgb.has_value(); })) {
     console.Print("colours not compared: the file holds none\n");
   }
-  Node document = {{"readings", readings},
-                   {"rms_relative", *rms},
-                   {"max_error", *max_error},
-                   {"lights", Node::List(lamps,
-                                         [&](const LampRms& lamp) {
-                                           return Node{{"name", lamp.light},
-                                                       {"rms_relative", lamp.rms},
-                                                       {"off", lamp.rms > *max_error}};
-                                         })},
-                   {"missing", Node::UnlessEmpty(Node(faults.missing))},
-                   {"extra", Node::UnlessEmpty(Node(faults.extra))},
-                   {"derived_off", Node::UnlessEmpty(Node::List(faults.derived, DerivedNode))},
-                   {"colors", Node::UnlessEmpty(Node::List(faults.colors, ColorNode))}};
+  if (!faults.beams && std::ranges::any_of(*lights, &EngineLight::placed)) {
+    console.Print("cones, sizes and turns not compared: these lamps make no such file here\n");
+  }
+  Node document = {
+      {"readings", readings},
+      {"rms_relative", *rms},
+      {"max_error", *max_error},
+      {"lights", Node::List(lamps,
+                            [&](const LampRms& lamp) {
+                              return Node{{"name", lamp.light},
+                                          {"rms_relative", lamp.rms},
+                                          {"off", lamp.rms > *max_error}};
+                            })},
+      {"missing", Node::UnlessEmpty(Node(faults.missing))},
+      {"extra", Node::UnlessEmpty(Node(faults.extra))},
+      {"derived_off", Node::UnlessEmpty(Node::List(faults.derived, DerivedNode))},
+      {"beams_off",
+       faults.beams ? Node::UnlessEmpty(Node::List(*faults.beams, EmissionNode)) : Node()},
+      {"colors", Node::UnlessEmpty(Node::List(faults.colors, ColorNode))}};
   if (const auto fault = Judged(options, *calibrated, rows, *rms, lamps, faults, *max_error)) {
     return EndWithError(console, std::move(document), *fault);
   }

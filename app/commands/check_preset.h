@@ -16,7 +16,8 @@ struct PresetCheck {
 };
 
 // Ends with an error beside the whole answer where the file lacks a lamp, has one more or in
-// another colour, or strays from what the meter showed of one by more than max_error.
+// another colour, shares out its light otherwise than an export of the same lamps,
+// or strays from what the meter showed of one by more than max_error.
 [[nodiscard]] Result<void> CheckPreset(const PresetCheck& options, Console& console);
 
 }  // namespace lightcal::app

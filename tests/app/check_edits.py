@@ -340,6 +340,91 @@ class Edited(unittest.TestCase):
             [n for n in document["nodes"] if n["name"] == "bulb"][0]["translation"][1] += 1.0
         self.assertIn("bulb", self.check(self.rig, self.gltf(self.rig, lifted))[1])
 
+    # ---- cones, sizes and turns, which readings on an axis do not see ----
+
+    def hung_with(self, ending, pattern, change, count=0):
+        """The hung lamps' file with every number behind the pattern changed."""
+        out = "cones" if ending == "blender.py" else "out"  # which has the spot as a table by itself
+        whole = (self.hung / out / f"hung.{ending}").read_text()
+        text = re.sub(pattern, lambda m: m[1] + repr(change(float(m[2]))), whole, count=count)
+        self.assertNotEqual(text, whole, ending)
+        edited = self.hung / "out" / f"edited.{ending}"
+        edited.write_text(text)
+        return edited
+
+    def beams_off(self, file):
+        answer, said = self.check(self.hung, file)
+        self.assertEqual(answer["error"]["code"], "beam_off", answer["error"])
+        return [one["light"] for one in answer["beams_off"]], said
+
+    def test_another_cone_of_the_same_axis(self):
+        done = call("export", self.hung / "hung.json", "--to", "blender", "--spots", "cone", "-o", self.hung / "cones")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for ending, pattern, change in (
+                ("gltf", r'("outerConeAngle": )([-\d.e+]+)', lambda v: min(1.5, 2 * v)),
+                ("usda", r"(inputs:shaping:cone:angle = )([-\d.e+]+)", lambda _: 60.0),
+                ("usda", r"(inputs:shaping:cone:softness = )([-\d.e+]+)", lambda _: 0.0),
+                ("tscn", r"(\nspot_angle = )([-\d.e+]+)", lambda _: 60.0),
+                ("blender.py", r'("spot_size_rad": )([-\d.e+]+)', lambda v: 1.5 * v),
+                ("blender.py", r'("spot_blend": )([-\d.e+]+)', lambda v: 0.2 * v),
+                ("three.js", r'("outer_rad": )([-\d.e+]+)', lambda v: min(1.5, 1.5 * v)),
+                ("filament.json", r'("outer_rad": )([-\d.e+]+)', lambda v: min(1.5, 1.5 * v))):
+            with self.subTest(ending=ending, pattern=pattern):
+                names, said = self.beams_off(self.hung_with(ending, pattern, change))
+                self.assertIn("key", names)
+                self.assertIn("off its axis", said)
+        # 15 to 25 degrees as radians: beyond what glTF takes.
+        radians = self.hung_with("gltf", r'("(?:inner|outer)ConeAngle": )([-\d.e+]+)', math.degrees)
+        self.assertEqual(self.check(self.hung, radians, 3)[0]["error"]["code"], "bad_preset")
+
+    def test_another_size_and_another_turn(self):
+        usda = (self.hung / "out" / "hung.usda").read_text()
+        swapped = usda.replace("inputs:width = ", "inputs:x = ").replace(
+            "inputs:height = ", "inputs:width = ").replace("inputs:x = ", "inputs:height = ")
+        self.assertNotEqual(swapped, usda)
+        edited = self.hung / "out" / "edited.usda"
+        edited.write_text(swapped)
+        self.assertEqual(self.beams_off(edited)[0], ["panel"])
+
+        def turned(match):
+            """Half a turn about its z: its x and y the other way."""
+            rows = re.findall(r"\([^()]*\)", match[2])
+            for at in (0, 1):
+                rows[at] = re.sub(r"-?[\d.]+(?:e-?\d+)?", lambda m: repr(0.0 - float(m[0])), rows[at], count=3)
+            return match[1] + "( " + ", ".join(rows) + " )"
+        at = usda.index('def SphereLight "luminaire"')
+        edited.write_text(usda[:at] + re.sub(r"(matrix4d xformOp:transform = )\( (.*) \)", turned, usda[at:], count=1))
+        self.assertEqual(self.beams_off(edited)[0], ["luminaire"])
+
+        document = (self.hung / "out" / "hung.preset.json").read_text()
+        edited = self.hung / "out" / "edited.preset.json"
+        edited.write_text(document.replace('"outer_deg": 25.0', '"outer_deg": 60.0', 1))
+        answer, said = self.check(self.hung, edited)
+        self.assertIn("key", said)
+        edited.unlink()
+
+    def test_beams_as_exported_are_right(self):
+        """In every form of spots, for each renderer, and one on its own, turned as nobody said."""
+        def right(home, file):
+            done = call("check", file, "--session", home, "--json")
+            answer = json.loads(done.stdout)
+            self.assertNotIn("beams_off", answer, (file, answer.get("error")))
+            self.assertNotIn("derived_off", answer, (file, answer.get("error")))
+        for ending in HUNG_FILES:
+            right(self.hung, self.hung / "out" / f"hung.{ending}")
+        for words in (["--spots", "ies"], ["--spots", "cone"], ["--range", "6m"], ["--space", "acescg"],
+                      ["--renderer", "karma"], ["--renderer", "arnold"], ["--renderer", "rtx"],
+                      ["--renderer", "rtx_2024"]):
+            out = self.hung / "again"
+            done = call("export", self.hung / "hung.json", "--to", "gltf,usd,godot,blender,three,filament,json,ies",
+                        "-o", out, "--force", *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for ending in HUNG_FILES:
+                with self.subTest(words=words, ending=ending):
+                    right(self.hung, out / f"hung.{ending}")
+        for file in ("loose.gltf", "loose.usda", "loose.three.js", "loose.blender.py", "loose.filament.json"):
+            right(self.loose, self.loose / "out" / file)
+
     # ---- preset.json's numbers for engines ----
 
     def test_every_number_for_engines(self):
