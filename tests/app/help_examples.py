@@ -5,7 +5,8 @@ files its reader would have.
 
     help_examples.py LIGHTCAL_BINARY
 
-Lines that need an instrument on a cable must fail for want of it (exit 1), not for their words.
+Lines that need an instrument on a cable must fail for want of it (exit 1), not for their words, and
+a check of a picture that is not of its rig.
 """
 import concurrent.futures
 import os
@@ -25,9 +26,10 @@ import panorama_views
 import usdlux
 SAMPLES = ROOT / "sample_data"
 LIGHTCAL = pathlib.Path(sys.argv[1]).resolve()
-# A meter or a camera must be plugged in.
-INSTRUMENT = re.compile(
-    r"^lightcal shoot |--device |^lightcal (read|watch) -s my_lamp --light key --distance 0.5m$")
+# A meter or a camera must be plugged in; beauty.exr is a picture of something else than the rig.
+FAILS = re.compile(
+    r"^lightcal shoot |--device |^lightcal (read|watch) -s my_lamp --light key --distance 0.5m$"
+    r"|--render beauty.exr ")
 MY_LAMP = """lightcal = 1
 name = "My lamp"
 [[light]]
@@ -115,7 +117,7 @@ def run_examples(commands, home):
             done = subprocess.run(["bash", "-c", line], cwd=home, env=environment,
                                   stdin=subprocess.DEVNULL, capture_output=True, text=True,
                                   timeout=120, check=False)
-            if done.returncode != (1 if INSTRUMENT.search(line) or lacks_page(line) else 0):
+            if done.returncode != (1 if FAILS.search(line) or lacks_page(line) else 0):
                 failures.append(f"{line}\n  exit {done.returncode}: {done.stderr.strip()}")
     return failures
 

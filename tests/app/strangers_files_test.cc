@@ -76,11 +76,17 @@ TEST_F(StrangersFiles, APresetThatIsOffIsExitOneAndOneThatIsRightIsZero) {
   const auto spoilt = [&](const json& changed) {
     return folder_.Write("spoilt.gltf", changed.dump());
   };
-  for (const double factor : {10.0, -1.0, 0.0, 0.5}) {
+  const auto times = [&](double factor) {
     json changed = gltf;
     for (json& light : changed["extensions"]["KHR_lights_punctual"]["lights"]) {
       light["intensity"] = light["intensity"].get<double>() * factor;
     }
+    return changed;
+  };
+  // Below 0 is no intensity of KHR_lights_punctual's.
+  Answer({"check", spoilt(times(-1.0)), "--session", session}, 3);
+  for (const double factor : {10.0, 0.0, 0.5}) {
+    const json changed = times(factor);
     const CliResult result = Answer({"check", spoilt(changed), "--session", session, "--json"}, 1);
     const json answer = json::parse(result.out);
     EXPECT_EQ(answer.at("error").at("code"), "preset_off");
