@@ -144,6 +144,22 @@ def rgb_of(xy):
     return FROM_XYZ @ np.array([xy[0] / xy[1], 1.0, (1 - xy[0] - xy[1]) / xy[1]])
 
 
+def xyz_of(xy):
+    return np.array([xy[0] / xy[1], 1.0, (1 - xy[0] - xy[1]) / xy[1]])
+
+
+def matrix_of(primaries, white):
+    """XYZ of linear RGB (SMPTE RP 177)."""
+    columns = np.array([xyz_of(xy) for xy in primaries]).T
+    return columns * np.linalg.solve(columns, xyz_of(white))
+
+
+def bradford(seen, shown):
+    """Of XYZ, from one white to another (ICC.1 annex E)."""
+    cones = np.array([[0.8951, 0.2664, -0.1614], [-0.7502, 1.7135, 0.0367], [0.0389, -0.0685, 1.0296]])
+    return np.linalg.inv(cones) @ np.diag(cones @ xyz_of(shown) / (cones @ xyz_of(seen))) @ cones
+
+
 def uv_of(xy):
     below = -2 * xy[0] + 12 * xy[1] + 3
     return 4 * xy[0] / below, 9 * xy[1] / below
@@ -303,7 +319,7 @@ class Shapes(unittest.TestCase):
                 for lamp in answer['lamps']:
                     self.assertAlmostEqual(lamp['factor'], factors.get(lamp['name'], 1.0), delta=0.02)
 
-    def lamps(self, name, lamps):
+    def lamps(self, name, lamps, *options):
         """name -> (where, cd, xy); the rigs before each."""
         path = os.path.join(self.work, name + '.json')
         with open(path, 'w') as f:
@@ -312,7 +328,7 @@ class Shapes(unittest.TestCase):
                  'intensity_cd': {'value': candela, 'u95': 1},
                  'fit': {'readings': 1, 'used': 1, 'rejected': [], 'learned': [], 'prior': []}}
                 for lamp, (where, candela, xy) in lamps.items()]}, f)
-        return self.export(name, path, '--rig', *[w for lamp in list(lamps)[1:] for w in ('--rig-at', lamp)])
+        return self.export(name, path, '--rig', *options, *[w for lamp in list(lamps)[1:] for w in ('--rig-at', lamp)])
 
     @staticmethod
     def shining(lamps, colors=(), factors=()):
@@ -397,6 +413,24 @@ class Shapes(unittest.TestCase):
                 self.assertTrue(off[list(three).index(list(changed)[0])], answer)
         one = self.check(self.painted('three', rigs[:1], self.shining(three, {'key': white})))
         self.assertEqual((one['cause']['code'], one['error']['code']), ('color_missing', 'color_off'), one)
+
+    def test_pictures_of_another_space_and_another_white(self):
+        """What a pipeline shows is told from what the lamp is by what its export says."""
+        warm = [0.4254, 0.4011]
+        lamps = {'lamp': ([0.0, 0, 2], 1000.0, warm)}
+        rec709 = matrix_of([[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]], D65)
+        ap1, aces = [[0.713, 0.293], [0.165, 0.830], [0.128, 0.044]], [0.32168, 0.33767]
+        for options, shows in ((('--space', 'acescg'), np.linalg.inv(matrix_of(ap1, aces)) @ bradford(D65, aces) @ rec709),
+                               (('--white', '0.4254,0.4011'), np.linalg.inv(rec709) @ bradford(warm, D65) @ rec709)):
+            with self.subTest(options=options):
+                rigs = self.lamps('space' + options[0], lamps, *options)
+                shining = self.shining(lamps)
+                answer = self.check(self.painted('space', rigs, lambda place, normal: shows @ shining(place, normal)))
+                self.assertNotIn('error', answer)
+                self.assertAlmostEqual(answer['stops_off'], 0.0, delta=0.005)
+                white = self.shining(lamps, {'lamp': np.ones(3)})
+                answer = self.check(self.painted('space', rigs, lambda place, normal: shows @ white(place, normal)))
+                self.assertEqual(answer['error']['code'], 'color_off', answer)
 
     def test_causes_that_one_picture_cannot_tell_apart(self):
         """Twice the light 2 m from a lamp: 1/d, or a lamp twice as strong."""

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "lightcal/colorimetry/rgb_spaces.h"
 #include "lightcal/colorimetry/srgb_encoding.h"
 #include "lightcal/core/uncertain.h"
 
@@ -108,6 +109,17 @@ CardPixels MeanOver(const Sampler& sampler, const std::array<PicturePoint, 4>& q
   return card;
 }
 
+// What a pipeline of another space or white shows, as the lamps gave it: linear Rec. 709 of the
+// light itself. Codes are those of a display of Rec. 709 primaries that shows that white as white.
+void UndoPipeline(const ColorTarget& pipeline, bool encoded, CardPixels& card) {
+  if (!pipeline.white && pipeline.space == RgbSpace::kSrgb) return;
+  const RgbSpace space = encoded ? RgbSpace::kSrgb : pipeline.space;
+  const Xyz shown = XyzFromLinearRgb({card.rgb[0], card.rgb[1], card.rgb[2]}, space);
+  const Rgb own =
+      LinearSrgbFromXyz(AdaptBradford(shown, PrimariesOf(space).white, pipeline.SceneWhite()));
+  card.rgb = {own.r, own.g, own.b};
+}
+
 }  // namespace
 
 Result<std::array<CardPixels, 2>> MeasureCards(const Frame& picture, const CheckedRig& rig) {
@@ -130,6 +142,7 @@ Result<std::array<CardPixels, 2>> MeasureCards(const Frame& picture, const Check
       quad[k] = *place;
     }
     cards[i] = MeanOver(sampler, quad, width, height);
+    UndoPipeline(rig.pipeline, sampler.encoded(), cards[i]);
   }
   return cards;
 }

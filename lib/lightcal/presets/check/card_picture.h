@@ -21,7 +21,8 @@ struct CardPixels {
   double noise = 0.0;            // u95 of its mean by that spread, relative
 };
 
-// Pixels of the white and the grey card. Encoded pictures (PNG, JPEG) are read as sRGB.
+// Pixels of the white and the grey card, linear Rec. 709 whatever the rig's pipeline works in.
+// Encoded pictures (PNG, JPEG) are read as sRGB.
 // Refused: cards_outside (a card's middle leaves the picture), not_color.
 [[nodiscard]] Result<std::array<CardPixels, 2>> MeasureCards(const Frame& picture,
                                                              const CheckedRig& rig);

@@ -103,6 +103,22 @@ CheckedLamp LampFrom(Finder& find, const Node& json) {
   return lamp;
 }
 
+// Plain Rec. 709 where the file says nothing else.
+ColorTarget PipelineOf(Finder& find, const Node& lamp) {
+  const Node* const linear = find.Part(lamp, "color").Find("pipeline_linear");
+  if (linear == nullptr || linear->Find("space") == nullptr) return {};
+  ColorTarget target;
+  const std::string word = find.Text(*linear, "space");
+  for (const RgbSpace space : kRgbSpaces) {
+    if (RgbSpaceWord(space) == word) target.space = space;
+  }
+  const Node& white = find.Part(*linear, "white_xy");
+  if (white.items.size() == 2 && white.items[1].IsNumber() && white.items[1].number > 0.0) {
+    target.white = Xy{white.items[0].number, white.items[1].number};
+  }
+  return target;
+}
+
 void FindCamera(Finder& find, const Node& json, CheckedRig& rig) {
   rig.camera_m = find.Triple(json, "position_m");
   rig.target_m = find.Triple(json, "target_m");
@@ -185,6 +201,8 @@ Result<CheckedRig> RigFromPreset(const std::string& text, const std::string& pat
   for (const Node& lamp : find.Part(*root, "lights").items) {
     rig.lamps.push_back(LampFrom(find, lamp));
     if (rig.lamps.back().name == chosen) rig.lamp = rig.lamps.size() - 1;
+    // Panoramas' own figures are in the pipeline's colours, and so are their pictures.
+    if (!rig.panorama) rig.pipeline = PipelineOf(find, lamp);
   }
   if (rig.lamps.empty()) find.Missing("lights");
   if (!find.missing().empty()) {

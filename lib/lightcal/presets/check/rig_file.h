@@ -9,6 +9,7 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/core/vec3.h"
+#include "lightcal/presets/light_color.h"
 #include "lightcal/presets/turned_panorama.h"
 
 namespace lightcal {
@@ -47,6 +48,7 @@ struct CheckedRig {
   std::vector<double> lamp_shares{};  // of the cards' light; empty: one lamp, or an older file
   double off_axis_deg = 0.0, round_deg = 0.0;
   std::optional<CheckedPanorama> panorama{};
+  ColorTarget pipeline{};  // what the engines of its export got their colours in
 };
 
 // Refused: bad_rig (names what is missing), no_rig (a bare preset).
