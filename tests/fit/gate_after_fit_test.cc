@@ -82,7 +82,9 @@ TEST(Budget, ItsPartsAddUpToTheInterval) {
 }
 
 TEST(Budget, OneReadingIsItsOwnSigmaAndThePriorOfTheOffset) {
-  const FittedLight light = FitOk(TypedSession({{1.0, 100.0}}, 0.05));
+  Session session = TypedSession({{1.0, 100.0}}, 0.05);
+  session.lights.front().distance_sigma = Metres(0.0);
+  const FittedLight light = FitOk(session);
   ASSERT_GE(light.budget.size(), 2U);
   EXPECT_EQ(light.budget[0].name, "distance_offset");
   EXPECT_NEAR(light.budget[0].sd_relative, 0.06, 1e-3);  // twice a bulb's 3 cm, at 1 m

@@ -18,7 +18,8 @@ TwinSession::TwinSession(const LampTruth& truth, double sigma, std::uint64_t see
   session_.lights.back().name = "lamp";
   session_.lights.back().lamp_class = LampClass::kWhiteLed;
   session_.lights.back().in_time.minutes_on = 120.0;
-  session_.surroundings = Surroundings::kDark;  // a twin shines in the open
+  session_.lights.back().distance_sigma = Metres(0.0);  // its meters stand where they say
+  session_.surroundings = Surroundings::kDark;          // a twin shines in the open
 }
 
 Reading& TwinSession::Add(double illuminance_lx) {

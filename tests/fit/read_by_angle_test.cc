@@ -113,6 +113,18 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ReadByAngle,
                          testing::Values(LightKind::kSpot, LightKind::kDisk, LightKind::kRect),
                          [](const auto& kind) { return std::string(LightKindName(kind.param)); });
 
+// Four readings that two lamps explain about as well: which one Huber's loss takes hangs on a hair.
+TEST(ReadByAngle, DistancesThatAreLessSureMakeNoRefusal) {
+  Session session = SessionOf(LampOfKind(LightKind::kSpot).light);
+  session.readings = {ReadingAt(1.0, 16.0, 57.82744164), ReadingAt(1.5, 10.0, 29.68780204),
+                      ReadingAt(2.5, 15.0, 10.39828119), ReadingAt(4.0, 12.0, 4.097883842)};
+  for (const double sigma_mm : {0.0, 1.0, 2.0, 3.0, 4.0, 6.0, 10.0, 20.0}) {
+    session.lights.front().distance_sigma = Metres(1e-3 * sigma_mm);
+    const auto fitted = FitSession(session, {});
+    EXPECT_TRUE(fitted.has_value()) << sigma_mm << " mm: " << fitted.error().message;
+  }
+}
+
 TEST(ReadByAngle, WhatHasNoAxisOrTwoIsRefused) {
   for (const LightKind kind : {LightKind::kDirectional, LightKind::kTube}) {
     LightDescription light;

@@ -92,9 +92,10 @@ TEST(Robust, F08TwoOfFourDisagreeingIsSaidAndNoneIsRejected) {
 }
 
 TEST(Robust, F08TwoOfFourAtFourDistancesLeaveBothCampsInTheInterval) {
-  auto fitted =
-      FitSession(test::TypedSession({{0.5, 400.0}, {1.0, 100.0}, {1.5, 133.2}, {2.0, 75.0}}, 0.02),
-                 FitSettings{});
+  Session session =
+      test::TypedSession({{0.5, 400.0}, {1.0, 100.0}, {1.5, 133.2}, {2.0, 75.0}}, 0.02);
+  session.lights.front().distance_sigma = Metres(0.0);  // all four as sure
+  auto fitted = FitSession(session, FitSettings{});
   ASSERT_TRUE(fitted.has_value());
   EXPECT_TRUE(HasWarning(*fitted, "bimodal"));
   EXPECT_FALSE(HasWarning(*fitted, "prior_conflict"));

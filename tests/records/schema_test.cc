@@ -60,6 +60,7 @@ flux_lm = 806
 beam_deg = 36
 field_deg = 60
 off_axis_sigma_deg = 0.5
+distance_sigma_m = 0.01
 [[light.at]]
 state = { zoom_deg = 40, modifier = "softbox" }
 kind = "rect"
@@ -165,6 +166,7 @@ meter = "c800"
 device = "sekonic:1"
 time = 2026-01-02T03:04:05Z
 distance_m = 0.5
+distance_sigma_m = 0.02
 off_axis_deg = 15
 illuminance_lx = 192.0
 tilt_deg = 30

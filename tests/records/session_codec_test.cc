@@ -28,6 +28,7 @@ flux_lm = 806
 beam_deg = 36
 field_deg = 60
 off_axis_sigma_deg = 0.5
+distance_sigma_m = 0.01
 [[light]]
 name = "panel"
 kind = "rect"

@@ -19,6 +19,7 @@
 #include "lightcal/fit/locate/fit_located_light.h"
 #include "lightcal/fit/locate/locate.h"
 #include "lightcal/fit/model/data_sheet.h"
+#include "lightcal/fit/model/distance_scatter.h"
 #include "lightcal/fit/model/fill_light.h"
 #include "lightcal/fit/model/input_checks.h"
 #include "lightcal/fit/model/observations.h"
@@ -26,6 +27,7 @@
 #include "lightcal/fit/model/reading_times.h"
 #include "lightcal/fit/states/measure_states.h"
 #include "lightcal/fit/states/split_geometries.h"
+#include "lightcal/light/effects/distance_error.h"
 #include "lightcal/photometry/spot_cone.h"
 
 namespace lightcal {
@@ -112,11 +114,37 @@ Result<FittedLight> FitStrength(const Session& session, const LightDescription& 
   return fitted;
 }
 
+// How wide the 95 % of its strength is, in ln; absent where it has none.
+std::optional<double> LnWidthOf(const FittedLight& light) {
+  if (!light.intensity_cd || !(LowEnd(*light.intensity_cd) > 0.0)) return std::nullopt;
+  return std::log(HighEnd(*light.intensity_cd) / LowEnd(*light.intensity_cd));
+}
+
+// Distances in whole inches are read off a tape to the inch: said where that tells.
+void SayOfRounding(const Session& session, const LightDescription& light,
+                   const FitSettings& settings, const FittedLight& fitted,
+                   FittedSession& session_out) {
+  constexpr double kTells = 1.1;
+  if (!fit::RoundedToInches(session, light)) return;
+  LightDescription by_tape = light;
+  by_tape.distance_sigma = Metres(effects::kDistanceSigmaMetres);
+  FittedSession unused;
+  const Result<FittedLight> finer = FitStrength(session, by_tape, settings, unused);
+  const std::optional<double> whole = LnWidthOf(fitted);
+  const std::optional<double> part = finer ? LnWidthOf(*finer) : std::nullopt;
+  if (!whole || !part || !(*whole > kTells * *part)) return;
+  session_out.notes.push_back(
+      light.name + ": its distances are whole inches and count as rounded to them, which widens " +
+      "its 95 % by " + PercentText(*whole / *part - 1.0) +
+      ": state distance_sigma_m in its [[light]] where they were read more finely");
+}
+
 // Its colour last: how much of the light in a reading was the lamp's own is what the fit found.
 Result<FittedLight> FitOne(const Session& session, const LightDescription& light,
                            const FitSettings& settings, FittedSession& session_out) {
   Result<FittedLight> out = FitStrength(session, light, settings, session_out);
   if (!out) return out;
+  SayOfRounding(session, light, settings, *out, session_out);
   fit::ShapeByStatedBeam(light, *out);
   const fit::OtherLight others(session, light, *out);
   fit::ColorFit found =

@@ -100,6 +100,8 @@ struct Scene {
   SceneTime time;
   std::optional<ScenePicture> picture;
   std::optional<double> table_step_rad;  // of a table of directions: the largest along a plane
+  // What each distance may be off by, 95 %: the readings' sigmas hold it. Absent: they do not.
+  std::optional<double> distance_error_m;
 };
 
 [[nodiscard]] double NearestDistance(const Scene& scene);

@@ -35,13 +35,14 @@ struct SharedScale {
 
 // A reading as the journal and session.toml hold it. Absent = not measured.
 struct Reading {
-  std::string light;               // name of the [[light]]
-  std::string meter;               // name of the [[meter]], "" = none named
-  std::optional<Metres> distance;  // from the session's reference point of the lamp, > 0
-  std::optional<Vec3> position_m;  // of the meter; with normal, instead of distance
-  std::optional<Vec3> normal;      // any length above 0
-  std::optional<Lux> illuminance;  // as read: ambient and bounce included
-  Radians tilt{0.0};               // between the meter's normal and the lamp's direction
+  std::string light;                     // name of the [[light]]
+  std::string meter;                     // name of the [[meter]], "" = none named
+  std::optional<Metres> distance;        // from the session's reference point of the lamp, > 0
+  std::optional<Metres> distance_sigma;  // 1 sigma of it alone; overrides the light's
+  std::optional<Vec3> position_m;        // of the meter; with normal, instead of distance
+  std::optional<Vec3> normal;            // any length above 0
+  std::optional<Lux> illuminance;        // as read: ambient and bounce included
+  Radians tilt{0.0};                     // between the meter's normal and the lamp's direction
   // Between the lamp's axis and the direction of the meter, seen from the lamp; the sign tells the
   // two sides of the axis apart. 0: on the axis.
   Radians off_axis{0.0};

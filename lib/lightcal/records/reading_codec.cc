@@ -30,6 +30,7 @@ void VisitReading(Archive& archive, SomeReading& reading) {
   archive.Text("device", reading.device);
   archive.Text("time", reading.time);
   archive.Number("distance_m", reading.distance, kDistanceRule);
+  archive.Number("distance_sigma_m", reading.distance_sigma, kNotNegative);
   archive.Array("position_m", reading.position_m);
   archive.Array("normal", reading.normal);
   archive.Number("illuminance_lx", reading.illuminance, kIlluminanceRule);
@@ -56,6 +57,10 @@ enum class Facing : std::uint8_t { kWritten, kUnlessSaid };  // of a meter whose
 std::optional<ReadingFault> FaultOfPlace(const Reading& reading, Facing facing) {
   if (reading.distance && (reading.position_m || reading.normal)) {
     return ReadingFault{"distance_m", "give distance_m, or position_m with normal, not both"};
+  }
+  if (reading.distance_sigma && reading.position_m) {
+    return ReadingFault{"distance_sigma_m",
+                        "distance_sigma_m is of a distance, and position_m gives none"};
   }
   const bool faces = facing == Facing::kUnlessSaid && !reading.normal;
   if (!faces && reading.position_m.has_value() != reading.normal.has_value()) {

@@ -70,7 +70,8 @@ struct LightDescription {
   std::optional<Radians> beam, field;    // data sheet: full angles at 50 % and 10 % of the peak
   // 1 sigma of the angles off its axis that readings say, and of the axis they are counted from.
   std::optional<Radians> angle_sigma{};
-  std::string distribution_file{};  // photometric: an IES or EULUMDAT file, "" = none named
+  std::optional<Metres> distance_sigma{};  // 1 sigma of each reading's distance by itself
+  std::string distribution_file{};         // photometric: an IES or EULUMDAT file, "" = none named
   // What that file holds, type C about the aim; whoever loads the session fills it.
   std::optional<IntensityTable> distribution{};
   std::vector<StateDescription> at{};

@@ -82,6 +82,7 @@ void VisitLight(Archive& archive, SomeLight& light) {
   archive.Degrees("beam_deg", light.beam, kFullAngleRule);
   archive.Degrees("field_deg", light.field, kFullAngleRule);
   archive.Degrees("off_axis_sigma_deg", light.angle_sigma, kHalfAngleRule);
+  archive.Number("distance_sigma_m", light.distance_sigma, kNotNegative);
   archive.Text("distribution", light.distribution_file);
 }
 

@@ -9,6 +9,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units.h"
+#include "lightcal/fit/model/distance_scatter.h"
 #include "lightcal/fit/model/other_light_taken.h"
 #include "lightcal/fit/model/reading_geometry.h"
 #include "lightcal/records/display_step.h"
@@ -34,7 +35,7 @@ bool ShowsTheLampAlone(const Reading& reading) {
 class Collector {
  public:
   Collector(const Session& session, const LightDescription& light)
-      : session_(session), light_(light) {}
+      : session_(session), light_(light), distance_step_(DistanceStepOf(session)) {}
 
   Result<Observations> Collect() {
     for (const SessionReading& row : session_.readings) {
@@ -48,6 +49,7 @@ class Collector {
     }
     auto taken = TakeOtherLight(light_, std::move(behind_), out_);
     if (!taken) return Propagate(std::move(taken));
+    WidenByDistances(light_, out_);
     out_.by_camera = instruments_.size() == 1 && !out_.rows.empty() && out_.rows[0].picture;
     std::sort(out_.rejected.begin(), out_.rejected.end());
     return std::move(out_);
@@ -83,6 +85,7 @@ class Collector {
     observation.sees_walls = HoldsWallLight(session_, light_, reading);
     observation.of_luminance = ShowsTheLampAlone(reading);
     StandMeter(light_, reading, *geometry, observation);
+    observation.distance_sigma_m = DistanceSigmaOf(light_, reading, distance_step_);
     observation.calibration = CalibrationRelative(session_, reading);
     observation.instrument = InstrumentIndex(reading);
     const double sigma = SigmaOf(reading);
@@ -122,6 +125,7 @@ class Collector {
 
   const Session& session_;
   const LightDescription& light_;
+  std::optional<Metres> distance_step_;
   Observations out_;
   std::vector<ReadingBehind> behind_;      // of out_.rows
   std::map<int, double> display_step_lx_;  // of each instrument

@@ -3,7 +3,9 @@
 // put to their use, impossible rows set aside.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,11 +25,13 @@ struct Observation {
   bool lit = true;
   double distance_m = 1.0;  // from the reference point, or of the two positions; 1 where none
   bool placed = true;       // whether the session says where the meter was
+  std::optional<double> distance_sigma_m;  // 1 sigma of it alone; absent: of no person's distance
   double tilt_rad = 0.0;
   double off_axis_rad = 0.0;  // stated; 0 where a position says it
   double measured_lx = 0.0;   // a matching shadow-card reading is subtracted
   double raw_lx = 0.0;        // as read
   double sigma_lx = 0.0;      // 1 sigma of measured_lx
+  double by_distance = 0.0;   // of it what the distance's own error does, relative
   bool differenced = false;   // shadow card subtracted: no ambient, no bounce
   // What was read behind a card: subtracted from this reading, or (lit false) this row itself.
   bool behind_card = false;
@@ -58,6 +62,12 @@ struct Observation {
 // What the card left that was subtracted, less the other light where that was taken off it.
 [[nodiscard]] inline double LeftByCard_lx(const Observation& row) {
   return row.card_lx - (row.ambient_subtracted ? row.card_other_lx : 0.0);
+}
+
+// 1 sigma of it where its meter stood: of what differs between readings of one place.
+[[nodiscard]] inline double SigmaThere_lx(const Observation& row) {
+  const double by_distance = row.by_distance * row.measured_lx;
+  return std::sqrt(std::max(0.0, row.sigma_lx * row.sigma_lx - by_distance * by_distance));
 }
 
 struct ReadingGeometry;

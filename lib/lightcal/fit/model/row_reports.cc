@@ -72,7 +72,7 @@ std::vector<const Observation*> Unrepeated(const std::vector<Observation>& rows,
     if (!ReadAlike(row, other)) continue;
     there.push_back(&other);
     apart = apart || std::abs(row.measured_lx - other.measured_lx) >
-                         kSigmas * std::hypot(row.sigma_lx, other.sigma_lx);
+                         kSigmas * std::hypot(SigmaThere_lx(row), SigmaThere_lx(other));
   }
   if (!apart) there.clear();
   return there;
@@ -113,27 +113,34 @@ void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
                         "are right: read again"});
   }
   std::vector<const Observation*> told;
-  for (const int row : estimate.suspicious) {
-    const Observation& one = observations.rows[prepared.observation[row]];
-    if (std::ranges::find(told, &one) != told.end()) continue;
+  const auto tell_unrepeated = [&](const Observation& one) {
+    if (std::ranges::find(told, &one) != told.end()) return true;
     const auto there = Unrepeated(observations.rows, one);
-    if (!there.empty()) {
-      told.insert(told.end(), there.begin(), there.end());
-      warnings.push_back(
-          {"suspicious_reading", light,
-           "at " + RoundedText(one.distance_m, 4) + " m the same meter read " +
-               Joined(there, ", ", [](const Observation* o) { return WhatItShowed(*o); }) +
-               " lx (readings " +
-               Joined(there, ", ", [](const Observation* o) { return std::to_string(o->index); }) +
-               "): farther apart than it repeats. The lamp was still warming up, its battery or "
-               "its mains sank, or the head was held otherwise: let it burn ten minutes and read "
-               "again"});
-      continue;
-    }
+    if (there.empty()) return false;
+    told.insert(told.end(), there.begin(), there.end());
+    warnings.push_back(
+        {"suspicious_reading", light,
+         "at " + RoundedText(one.distance_m, 4) + " m the same meter read " +
+             Joined(there, ", ", [](const Observation* o) { return WhatItShowed(*o); }) +
+             " lx (readings " +
+             Joined(there, ", ", [](const Observation* o) { return std::to_string(o->index); }) +
+             "): farther apart than it repeats. The lamp was still warming up, its battery or "
+             "its mains sank, or the head was held otherwise: let it burn ten minutes and read "
+             "again"});
+    return true;
+  };
+  for (const int row : estimate.suspicious) {
+    if (tell_unrepeated(observations.rows[prepared.observation[row]])) continue;
     warnings.push_back({"suspicious_reading", light,
                         describe(row) + " disagrees with the model; with " +
                             Plural(prepared.lit_rows, "reading") +
                             " none can be rejected: read again"});
+  }
+  // Readings of one place share its distance's error, which their contrast does not have.
+  constexpr std::size_t kFew = 12;
+  if (!estimate.rejected.empty() || observations.rows.size() > kFew) return;
+  for (const Observation& one : observations.rows) {
+    if (one.lit && one.by_distance > 0.0) (void)tell_unrepeated(one);
   }
 }
 

@@ -43,7 +43,9 @@ void FillRowValues(const Observation& o, std::size_t i, const ForwardModel& mode
   }
   if (!(o.measured_lx > 0.0)) return;
   const double relative = o.sigma_lx / o.measured_lx;
-  if (relative < kLinearBeyondSigma) {
+  // What a distance is off by has a logarithm however large it is.
+  const double read = std::sqrt(std::max(0.0, relative * relative - o.by_distance * o.by_distance));
+  if (read < kLinearBeyondSigma) {
     row.form = o.over_range ? ReadingRow::Form::kCensored : ReadingRow::Form::kLog;
     row.sigma = relative;
   }

@@ -258,6 +258,9 @@ Scene SceneOfSession(const Session& session, const LightDescription& light,
     scene.poses.push_back({row.distance_m, row.tilt_rad, row.measured_from_center, row.differenced,
                            row.position_m, EmissionOf(light, row), row.of_luminance,
                            row.table_error});
+    if (row.distance_sigma_m) {
+      KeepLargest(scene.distance_error_m, std::optional(kZ95 * *row.distance_sigma_m));
+    }
   }
   scene.distances = CountDistinctDistances(observations.rows);
   scene.ambient_ratio = AmbientRatio(observations);

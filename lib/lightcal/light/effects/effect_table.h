@@ -35,7 +35,7 @@ inline constexpr std::array<Effect, 20> kEffects = {{
     {"sphere_surface", 0.5, "light.position_m", effects::FindSphereSurface},
     {"horizon", 0.5, "reading.position_m, reading.normal", effects::FindHorizon},
     {"meter_tilt", 3.5, "reading.tilt_deg", effects::FindMeterTilt},
-    {"distance_error", 0.5, "reading.position_m", effects::FindDistanceError},
+    {"distance_error", 0.5, "light.distance_sigma_m", effects::FindDistanceError},
     {"room_bounce", 9400.0, "reading.shadow_card, room.size_m", effects::FindRoomBounce},
     {"detector_size", 7.5, "meter.head_radius_m", effects::FindDetectorSize},
     {"spectral_mismatch", 0.5, "meter.spectral_f1", effects::FindSpectralMismatch},
