@@ -10,6 +10,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
+#include "lightcal/imaging/scene/picture_luminance.h"
 
 namespace lightcal {
 namespace {
@@ -208,7 +209,8 @@ Result<DomeScale> ByRange(const DomeReading& reading, double all, Dome& dome,
   return scale;
 }
 
-Result<DomeScale> ByRest(const DomeReading& reading, double all, std::vector<DomeLight>& lights) {
+Result<DomeScale> ByRest(const DomeReading& reading, double all, double scale_sd,
+                         std::vector<DomeLight>& lights) {
   std::vector<DomeLight*> clipped;
   double rest = all;
   for (DomeLight& light : lights) {
@@ -228,12 +230,20 @@ Result<DomeScale> ByRest(const DomeReading& reading, double all, std::vector<Dom
                        ": the picture's scale, the reading or the meter's direction is wrong");
   }
   DomeScale scale;
+  // A picture too dark by its scale leaves the lights too much: the scale's error comes whole.
+  const double sd =
+      std::hypot(reading.sigma_relative * reading.illuminance.value(), scale_sd * rest);
+  const double shown = (all - rest) * std::exp(-kZ95 * scale_sd);
+  scale.inferred_sd_relative = sd / missing;
   const Shares shares(clipped, reading.normal);
   for (DomeLight* light : clipped) {
     InferIlluminance(shares.Of(*light, missing), *light);
     ++scale.inferred;
+    if (kZ95 * sd < missing) continue;
+    // Of a difference that may be nothing, what the pixels show is left.
+    light->at_least = shares.Of(*light, std::min(shown, missing));
+    light->at_most = shares.Of(*light, missing + kZ95 * sd);
   }
-  scale.inferred_sd_relative = reading.sigma_relative * reading.illuminance.value() / missing;
   return scale;
 }
 
@@ -275,7 +285,9 @@ Result<DomeScale> ScaleDome(const DomeReading& reading, bool absolute,
   if (reading.shaded) return ByShading(reading, all, stated_sd, dome, lights);
   const bool clipped =
       std::ranges::any_of(lights, [](const DomeLight& light) { return light.body.clipped; });
-  if (clipped && absolute) return ByRest(reading, all, lights);
+  if (clipped && absolute) {
+    return ByRest(reading, all, stated_sd.value_or(kUnstatedScaleU95 / kZ95), lights);
+  }
   if (clipped) {
     return Refused(
         "clipped_scale_unknown", "{dome.illuminance}",

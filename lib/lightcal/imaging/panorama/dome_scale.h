@@ -67,7 +67,8 @@ enum class ShadingBy : std::uint8_t { kNotSeen, kLess, kAsPixelsSay, kMore };
 //                                      give) / R; range_ln reaches from one to the other; these
 //                                      lights share what is left: E_lux = factor R + theirs
 //   lights clipped, the scale absolute   factor = 1; the clipped light gives (E_lux - R) / (n . d);
-//                                      several share one luminance
+//                                      several share one luminance. One reading cannot give both:
+//                                      their sd is that of E_lux and of the scale's part of R
 // The samples of dome and lights are multiplied. A picture that states how sure its scale is
 // (`stated_sd`, relative; in cd/m^2) keeps its part in ln(factor), by 1/sd^2, unless it is more
 // than two standard deviations from the reading, which is then believed alone. Refused: no_light
