@@ -199,8 +199,9 @@ std::string ViewsTable(const DomeInput& input) {
   }
   return TextTable({"view", "scale", "yaw", "pitch", "roll", "aim ±"}, rows) + "\n" + lens +
          "views agree within " + RoundedText(100.0 * input.agreement_sd, 2) +
-         " % (1 sigma); the lens passes " + RoundedText(100.0 * input.rim_transmission, 3) +
-         " % at its rim\n\n";
+         " % (1 sigma), but for " + RoundedText(100.0 * input.apart_share, 2) +
+         " % of what they share, more than 10 % apart; the lens passes " +
+         RoundedText(100.0 * input.rim_transmission, 3) + " % at its rim\n\n";
 }
 
 Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::string>& written) {
@@ -236,6 +237,7 @@ Node ToJson(const Plan& plan, const MadeDome& made, const std::vector<std::strin
           {"aims_rms_px", input.field_of_view ? Node(input.aims_rms_px) : Node()},
           {"rim_transmission", several ? Node(input.rim_transmission) : Node()},
           {"agreement_sd_relative", several ? Node(input.agreement_sd) : Node()},
+          {"apart_fraction", several ? Node(input.apart_share) : Node()},
           {"grey", input.grey ? GreyNode(*input.grey) : Node()},
           {"blind_cap", input.blind_cap ? BlindCapNode(*input.blind_cap, measured.north) : Node()},
           {"seen_fraction", input.views.empty() ? Node() : Node(input.seen_share)},

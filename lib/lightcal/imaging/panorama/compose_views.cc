@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/uncertain.h"
 #include "lightcal/imaging/panorama/compose_dome.h"
+#include "lightcal/imaging/panorama/view_contradictions.h"
 #include "lightcal/imaging/panorama/view_scales.h"
 
 namespace lightcal {
@@ -144,12 +147,29 @@ void TakeBalls(const std::vector<AimedPicture>& views, const DomeInputRequest& r
   dome.blind_cap = BlindCap{view.Outward(view.ball()->axis()), view.ball()->BlindAngle()};
 }
 
-void WarnOfDisagreement(DomeInput& dome) {
-  if (dome.agreement_sd <= kDisagreement) return;
+// Found aims are as right as pictures from several places allow: those are ghosts, no blunder.
+Result<std::string> WordsOfOverlaps(Result<std::string> judged, bool aims_found) {
+  if (judged) return judged;
+  if (aims_found) return judged.error().message;
+  judged.error().message +=
+      ". Check aims, rolls, turns and the order of the files, or let them be found ({dome.aims} "
+      "auto)";
+  return judged;
+}
+
+void WarnOfDisagreement(const std::string& overlaps, bool aims_found, DomeInput& dome) {
+  std::string what;
+  if (dome.agreement_sd > kDisagreement) {
+    what = "where views overlap they differ by " + RoundedText(100.0 * dome.agreement_sd, 2) +
+           " % (1 sigma)";
+  }
+  if (!overlaps.empty()) what += (what.empty() ? "" : "; ") + overlaps;
+  if (what.empty()) return;
   dome.warnings.push_back(
       {"views_disagree", dome.files.front(),
-       "where views overlap they differ by " + RoundedText(100.0 * dome.agreement_sd, 2) +
-           " % (1 sigma); check their aims and field of view, or something moved"});
+       what + (aims_found ? "; something moved, or the camera did not turn about its lens"
+                          : "; check their aims ({dome.aims} auto finds them) and field of view, "
+                            "or something moved")});
 }
 
 }  // namespace
@@ -159,6 +179,10 @@ Result<DomeInput> ComposeViews(std::vector<DomeInput> pictures, const DomeInputR
   if (!views) return tl::unexpected(views.error());
   const auto scales = SolveViewScales(views->pictures, views->in_gauge);
   if (!scales) return tl::unexpected(scales.error());
+  std::vector<std::string> names;
+  for (const AimedPicture& picture : views->pictures) names.push_back(picture.name);
+  const auto apart = WordsOfOverlaps(JudgeOverlaps(scales->overlaps, names), request.find_aims);
+  if (!apart) return tl::unexpected(apart.error());
   ComposedDome composed =
       ComposeDome(views->pictures, *scales, request.width.value_or(WidthForViews(views->pictures)));
   DomeInput dome = Together(pictures);
@@ -168,13 +192,14 @@ Result<DomeInput> ComposeViews(std::vector<DomeInput> pictures, const DomeInputR
   }
   dome.rim_transmission = scales->Falloff(1.0);
   dome.agreement_sd = scales->agreement_sd;
+  dome.apart_share = ShareApart(scales->overlaps);
   dome.seen_share = SeenShare(composed);
   if (dome.seen_share < kWholeSphere) dome.unseen = std::move(composed.unseen);
   if (request.clip) dome.clipped = std::move(composed.clipped);
   TakeBalls(views->pictures, request, dome);
   composed.dome.xyz_from_rgb = pictures.front().dome.xyz_from_rgb;
   dome.dome = std::move(composed.dome);
-  WarnOfDisagreement(dome);
+  WarnOfDisagreement(*apart, request.find_aims, dome);
   return dome;
 }
 

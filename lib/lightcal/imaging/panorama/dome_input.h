@@ -74,6 +74,7 @@ struct DomeInput {
   std::optional<Radians> field_of_view;  // where aims were found, as they have it
   double rim_transmission = 1.0;         // what their lens passes at its rim, of what in its middle
   double agreement_sd = 0.0;             // of the views where they overlap, relative
+  double apart_share = 0.0;              // of what views share, by more than 10 %
   double seen_share = 1.0;               // of the sphere
   std::vector<std::uint8_t> unseen;      // by pixel, black; empty = none
   std::optional<BlindCap> blind_cap;

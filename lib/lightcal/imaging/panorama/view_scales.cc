@@ -3,25 +3,22 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
-#include <numeric>
-#include <optional>
+#include <numbers>
 #include <utility>
 
-#include "lightcal/core/parallel.h"
 #include "lightcal/core/statistics.h"
-#include "lightcal/imaging/panorama/latlong_grid.h"
+#include "lightcal/imaging/panorama/overlap_cells.h"
 
 namespace lightcal {
 namespace {
 
-constexpr int kOverlapRows = 90, kCellColumns = 180;  // cells of 2 degrees
-constexpr int kCellSide = 4;                          // kCellSide x kCellSide points of a cell
 constexpr int kBlock = 6;             // cells on the side of a block of common errors
 constexpr double kLeastCells = 12.0;  // that join a view to the others, as cells of the equator
-constexpr double kLeastSd = 0.005;    // of a cell: edges, reflections, resampling
 constexpr double kFalloffSd = 0.7;    // prior of its coefficients: half the light at the rim
 constexpr double kMirrorSd = 0.05;    // the same of a mirror ball, whose reflectance is taken off
 // What sampling between the pixels of gradients leaves in a view's factor, measured on synthetic
@@ -30,72 +27,56 @@ constexpr double kSamplingSd = 1.5e-4;
 constexpr int kSolveRounds = 25;
 constexpr double kGaugeWeight = 1e9;
 
-// What one view says of one cell.
-struct Sight {
-  std::size_t view = 0;
-  double ln = 0.0, variance = 0.0;
-  std::array<double, 3> radius{};  // r^2 r^4 r^6
+// Two views of one cell, which say one luminance.
+struct Pair {
+  std::size_t a = 0, b = 0, block = 0;
+  double ln = 0.0;                 // of a over b
+  double sd = 0.0;                 // of ln, by the scatter in the cell
+  std::array<double, 3> radius{};  // r^2 r^4 r^6, a's less b's
+  double area = 0.0;               // of the cell, of one on the equator
+  double full = 0.0;               // weight without doubt
   double weight = 0.0;
 };
-struct Cell {
-  std::size_t block = 0;
-  double area = 1.0;  // of a cell on the equator
-  std::vector<Sight> sights;
-};
 
-std::optional<Sight> SightOf(const AimedPicture& picture, std::size_t view, int x, int y) {
-  double sum = 0.0, sum2 = 0.0, radius2 = 0.0;
-  for (int i = 0; i < kCellSide * kCellSide; ++i) {
-    const double azimuth =
-        2.0 * std::numbers::pi * (x + (i % kCellSide + 0.5) / kCellSide) / kCellColumns;
-    const double zenith = std::numbers::pi * (y + (i / kCellSide + 0.5) / kCellSide) / kOverlapRows;
-    const auto seen = picture.view.See({-std::sin(azimuth) * std::sin(zenith),
-                                        -std::cos(azimuth) * std::sin(zenith), std::cos(zenith)});
-    if (!seen || seen->worth < 1.0) return std::nullopt;
-    const PictureTap tap = TapAt(picture.view.angles().view(), seen->point);
-    if (AnyClipped(picture, tap)) return std::nullopt;
-    double value = 0.0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      value += double{tap.weight[k] * picture.nits.data()[tap.pixel[k]]} / seen->passed;
-    }
-    sum += value;
-    sum2 += value * value;
-    radius2 += seen->rim_share * seen->rim_share / (kCellSide * kCellSide);
+// With weights w of a cell's sights, sum w (x - mean)^2 = sum over its pairs of w_a w_b / W (x_a -
+// x_b)^2: doubt can so be cast on what two views say of each other. Cast on single sights against
+// their mean it falls on either of two, the mean follows the other, and half of all sights agree
+// with it whatever the pictures show.
+void AddPairs(const std::vector<OverlapView>& cell, int x, int y, std::vector<Pair>& pairs) {
+  const double area = OverlapCellArea(y);
+  double all = 0.0;
+  for (const OverlapView& view : cell) {
+    if (view.sight) all += area / view.sight->variance;
   }
-  const double count = kCellSide * kCellSide, mean = sum / count;
-  if (!(mean > 0.0)) return std::nullopt;
-  const double scatter2 = std::max(0.0, sum2 / count - mean * mean) / (mean * mean) / count;
-  Sight sight{view, std::log(mean), scatter2 + kLeastSd * kLeastSd, {}, 0.0};
-  sight.radius = {radius2, radius2 * radius2, radius2 * radius2 * radius2};
-  return sight;
+  const auto block = static_cast<std::size_t>(y / kBlock * (kOverlapColumns / kBlock) + x / kBlock);
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    for (std::size_t j = i + 1; cell[i].sight && j < cell.size(); ++j) {
+      if (!cell[j].sight) continue;
+      const OverlapSight &a = *cell[i].sight, &b = *cell[j].sight;
+      Pair pair{i, j, block, a.ln - b.ln, std::sqrt(a.variance + b.variance), {}, area, 0.0, 0.0};
+      for (std::size_t k = 0; k < 3; ++k) pair.radius[k] = a.radius[k] - b.radius[k];
+      pair.weight = pair.full = area * area / (a.variance * b.variance) / all;
+      pairs.push_back(pair);
+    }
+  }
 }
 
-std::vector<Cell> SharedCells(std::span<const AimedPicture> views) {
-  const LatLongGrid grid(kCellColumns, kOverlapRows);
-  std::vector<std::vector<Cell>> rows(kOverlapRows);
-  ParallelFor(kOverlapRows, [&](int y) {
-    for (int x = 0; x < kCellColumns; ++x) {
-      Cell cell;
-      cell.block = static_cast<std::size_t>(y / kBlock * (kCellColumns / kBlock) + x / kBlock);
-      cell.area = grid.SolidAngle(y) / grid.SolidAngle(kOverlapRows / 2);
-      for (std::size_t i = 0; i < views.size(); ++i) {
-        if (auto sight = SightOf(views[i], i, x, y)) cell.sights.push_back(*sight);
-      }
-      if (cell.sights.size() >= 2) rows[static_cast<std::size_t>(y)].push_back(std::move(cell));
+std::vector<Pair> PairsOf(const std::vector<std::vector<OverlapView>>& cells) {
+  std::vector<Pair> pairs;
+  for (int y = 0; y < kOverlapRows; ++y) {
+    for (int x = 0; x < kOverlapColumns; ++x) {
+      AddPairs(cells[static_cast<std::size_t>(y * kOverlapColumns + x)], x, y, pairs);
     }
-  });
-  std::vector<Cell> cells;
-  for (auto& row : rows) std::ranges::move(row, std::back_inserter(cells));
-  return cells;
+  }
+  return pairs;
 }
 
 // Every view must hang together with the first over enough cells.
-Result<void> CheckOverlap(std::span<const AimedPicture> views, const std::vector<Cell>& cells) {
+Result<void> CheckOverlap(std::span<const AimedPicture> views, const std::vector<Pair>& pairs) {
   std::map<std::pair<std::size_t, std::size_t>, double> shared;
-  for (const Cell& cell : cells) {
-    for (const Sight& a : cell.sights) {
-      for (const Sight& b : cell.sights) shared[{a.view, b.view}] += cell.area;
-    }
+  for (const Pair& pair : pairs) {
+    shared[{pair.a, pair.b}] += pair.area;
+    shared[{pair.b, pair.a}] += pair.area;
   }
   std::vector<bool> joined(views.size(), false);
   joined[0] = true;
@@ -127,61 +108,35 @@ class Normal {
     unknowns_ = Eigen::VectorXd::Zero(size_);
   }
 
-  [[nodiscard]] Eigen::VectorXd RowOf(const Sight& sight) const {
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(size_);
-    row[static_cast<Eigen::Index>(sight.view)] = 1.0;
-    for (Eigen::Index k = 0; k < 3; ++k)
-      row[views_ + k] = sight.radius[static_cast<std::size_t>(k)];
-    return row;
-  }
-  [[nodiscard]] double Left(const Sight& sight) const {
-    double predicted = unknowns_[static_cast<Eigen::Index>(sight.view)];
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      predicted += unknowns_[views_ + k] * sight.radius[static_cast<std::size_t>(k)];
-    }
-    return sight.ln - predicted;
-  }
-  // What a cell's views say above their weighted mean.
-  [[nodiscard]] double MeanLeft(const Cell& cell) const {
-    double sum = 0.0, weight = 0.0;
-    for (const Sight& sight : cell.sights) {
-      sum += sight.weight * Left(sight);
-      weight += sight.weight;
-    }
-    return sum / weight;
+  // What the two say of each other beyond their scales and the lens.
+  [[nodiscard]] double Left(const Pair& pair) const {
+    double left = pair.ln;
+    for (const auto& [at, slope] : RowOf(pair)) left -= slope * unknowns_[at];
+    return left;
   }
 
-  void Solve(const std::vector<Cell>& cells) {
+  void Solve(const std::vector<Pair>& pairs) {
     matrix_ = kGaugeWeight * gauge_ * gauge_.transpose();
     for (Eigen::Index k = views_; k < size_; ++k) {
       matrix_(k, k) += 1.0 / (falloff_sd_ * falloff_sd_);
     }
     Eigen::VectorXd right = Eigen::VectorXd::Zero(size_);
-    for (const Cell& cell : cells) {
-      Eigen::VectorXd sum = Eigen::VectorXd::Zero(size_);
-      double weight = 0.0, value = 0.0;
-      for (const Sight& sight : cell.sights) {
-        const Eigen::VectorXd row = RowOf(sight);
-        matrix_ += sight.weight * row * row.transpose();
-        right += sight.weight * sight.ln * row;
-        sum += sight.weight * row;
-        weight += sight.weight;
-        value += sight.weight * sight.ln;
+    for (const Pair& pair : pairs) {
+      const Row row = RowOf(pair);
+      for (const auto& [i, slope] : row) {
+        right[i] += pair.weight * pair.ln * slope;
+        for (const auto& [j, other] : row) matrix_(i, j) += pair.weight * slope * other;
       }
-      matrix_ -= sum * sum.transpose() / weight;
-      right -= sum * (value / weight);
     }
     unknowns_ = matrix_.ldlt().solve(right);
   }
 
-  [[nodiscard]] Eigen::MatrixXd Covariance(const std::vector<Cell>& cells) const {
+  [[nodiscard]] Eigen::MatrixXd Covariance(const std::vector<Pair>& pairs) const {
     std::map<std::size_t, Eigen::VectorXd> scores;
-    for (const Cell& cell : cells) {
-      const double mean = MeanLeft(cell);
-      auto& score = scores.try_emplace(cell.block, Eigen::VectorXd::Zero(size_)).first->second;
-      for (const Sight& sight : cell.sights) {
-        score += sight.weight * (Left(sight) - mean) * RowOf(sight);
-      }
+    for (const Pair& pair : pairs) {
+      auto& score = scores.try_emplace(pair.block, Eigen::VectorXd::Zero(size_)).first->second;
+      const double left = Left(pair);
+      for (const auto& [i, slope] : RowOf(pair)) score[i] += pair.weight * left * slope;
     }
     Eigen::MatrixXd middle = Eigen::MatrixXd::Zero(size_, size_);
     for (const auto& [block, score] : scores) middle += score * score.transpose();
@@ -192,35 +147,57 @@ class Normal {
   [[nodiscard]] const Eigen::VectorXd& unknowns() const { return unknowns_; }
 
  private:
+  using Row = std::array<std::pair<Eigen::Index, double>, 5>;
+
+  [[nodiscard]] Row RowOf(const Pair& pair) const {
+    return {{{static_cast<Eigen::Index>(pair.a), 1.0},
+             {static_cast<Eigen::Index>(pair.b), -1.0},
+             {views_, pair.radius[0]},
+             {views_ + 1, pair.radius[1]},
+             {views_ + 2, pair.radius[2]}}};
+  }
+
   double falloff_sd_;
   Eigen::Index size_, views_;
   Eigen::VectorXd gauge_, unknowns_;
   Eigen::MatrixXd matrix_;
 };
 
-// Robust sd of what is left: in units of the sights' own sd, or of ln L.
-double SdOfRest(const Normal& normal, const std::vector<Cell>& cells, bool in_own_sd) {
+// Robust sd of what two views leave: in units of its own sd, or of ln L of one.
+double SdOfRest(const Normal& normal, const std::vector<Pair>& pairs, bool in_own_sd) {
   std::vector<double> off;
-  for (const Cell& cell : cells) {
-    const double mean = normal.MeanLeft(cell);
-    for (const Sight& sight : cell.sights) {
-      const double unit = in_own_sd ? std::sqrt(sight.variance) : 1.0;
-      off.push_back(std::abs(normal.Left(sight) - mean) / unit);
-    }
+  off.reserve(pairs.size());
+  for (const Pair& pair : pairs) {
+    off.push_back(std::abs(normal.Left(pair)) / (in_own_sd ? pair.sd : std::numbers::sqrt2));
   }
   return kSdPerMad * UpperMedian(off);
 }
 
-void Reweigh(const Normal& normal, std::vector<Cell>& cells) {
-  const double sd = std::max(1e-6, SdOfRest(normal, cells, true));
-  for (Cell& cell : cells) {
-    const double mean = normal.MeanLeft(cell);
-    for (Sight& sight : cell.sights) {
-      const double off =
-          (normal.Left(sight) - mean) / std::sqrt(sight.variance) / (kCauchyScale * sd);
-      sight.weight = cell.area / sight.variance / (1.0 + off * off);
+void Reweigh(const Normal& normal, std::vector<Pair>& pairs) {
+  const double sd = std::max(1e-6, SdOfRest(normal, pairs, true));
+  for (Pair& pair : pairs) {
+    const double off = normal.Left(pair) / pair.sd / (kCauchyScale * sd);
+    pair.weight = pair.full / (1.0 + off * off);
+  }
+}
+
+// As OverlapsOf asks for it.
+std::vector<std::vector<double>> OnOneScale(const std::vector<std::vector<OverlapView>>& cells,
+                                            const ViewScales& scales) {
+  constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::vector<double>> values(scales.factor.size(),
+                                          std::vector<double>(cells.size(), kUnseen));
+  for (std::size_t at = 0; at < cells.size(); ++at) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const OverlapView& view = cells[at][i];
+      if (view.clipped) values[i][at] = std::numeric_limits<double>::infinity();
+      if (!view.sight) continue;
+      double ln = view.sight->ln + std::log(scales.factor[i]);
+      for (std::size_t k = 0; k < 3; ++k) ln -= scales.falloff[k] * view.sight->radius[k];
+      values[i][at] = ln;
     }
   }
+  return values;
 }
 
 }  // namespace
@@ -238,19 +215,17 @@ Result<ViewScales> SolveViewScales(std::span<const AimedPicture> views,
     scales.sd_relative.assign(views.size(), 0.0);
     return scales;
   }
-  std::vector<Cell> cells = SharedCells(views);
-  if (auto ok = CheckOverlap(views, cells); !ok) return Propagate(std::move(ok));
-  for (Cell& cell : cells) {
-    for (Sight& sight : cell.sights) sight.weight = cell.area / sight.variance;
-  }
+  const auto cells = OverlapSights(views);
+  std::vector<Pair> pairs = PairsOf(cells);
+  if (auto ok = CheckOverlap(views, pairs); !ok) return Propagate(std::move(ok));
   const bool balls = std::ranges::any_of(
       views, [](const AimedPicture& picture) { return picture.view.ball().has_value(); });
   Normal normal(views.size(), in_gauge, balls ? kMirrorSd : kFalloffSd);
   for (int round = 0; round < kSolveRounds; ++round) {
-    normal.Solve(cells);
-    Reweigh(normal, cells);
+    normal.Solve(pairs);
+    Reweigh(normal, pairs);
   }
-  const Eigen::MatrixXd covariance = normal.Covariance(cells);
+  const Eigen::MatrixXd covariance = normal.Covariance(pairs);
   const auto count = static_cast<Eigen::Index>(views.size());
   for (Eigen::Index i = 0; i < count; ++i) {
     scales.factor.push_back(std::exp(-normal.unknowns()[i]));
@@ -260,7 +235,8 @@ Result<ViewScales> SolveViewScales(std::span<const AimedPicture> views,
   for (Eigen::Index k = 0; k < 3; ++k) {
     scales.falloff[static_cast<std::size_t>(k)] = normal.unknowns()[count + k];
   }
-  scales.agreement_sd = SdOfRest(normal, cells, false);
+  scales.agreement_sd = SdOfRest(normal, pairs, false);
+  scales.overlaps = OverlapsOf(OnOneScale(cells, scales));
   return scales;
 }
 
