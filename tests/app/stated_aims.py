@@ -85,6 +85,6 @@ whole = views.read_hdr(LATLONG / "lobby.hdr")
 many = shoot("many", whole, LENS, SPHERE, 3, clip=30)
 right("22 of an ordinary lens", many, SPHERE, LENS)
 swapped = [*SPHERE[:3], SPHERE[4], SPHERE[3], *SPHERE[5:]]
-wrong("22, two files swapped", many, swapped, LENS, True, {4, 5})
-wrong("22, one rolled 90 degrees", many, [*SPHERE[:2], (90, 0, 90), *SPHERE[3:]], LENS, True, {3})
+wrong("22, two files swapped", many, swapped, LENS, False, {4, 5})
+wrong("22, one rolled 90 degrees", many, [*SPHERE[:2], (90, 0, 90), *SPHERE[3:]], LENS, False, {3})
 wrong("22, all turned left", many, [(-y, p, r) for y, p, r in SPHERE], LENS, True, None)

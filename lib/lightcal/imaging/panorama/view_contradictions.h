@@ -29,9 +29,9 @@ struct ViewOverlap {
 // The share of all overlaps that differs by more than 10 %.
 [[nodiscard]] double ShareApart(const std::vector<ViewOverlap>& overlaps);
 
-// Of overlaps of .3 % of the sphere and more. Refused: views_contradict, naming the views without
-// which the others agree, if these are no more than half: 30 % of one overlap contradicts, or 5 %
-// of all. Else, whether more than a quarter of one of 1 % is apart: what is warned, or empty.
+// Of overlaps of 1 % of the sphere and more. Refused: views_contradict, naming the views without
+// which the others agree, if these are no more than half: half of one overlap contradicts, or 5 %
+// of all. Else, whether more than a quarter of one is apart: what is warned, or empty.
 [[nodiscard]] Result<std::string> JudgeOverlaps(const std::vector<ViewOverlap>& overlaps,
                                                 const std::vector<std::string>& names);
 
