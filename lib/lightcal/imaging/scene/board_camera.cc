@@ -63,7 +63,7 @@ Vec3 RotationVector(const Eigen::Matrix3d& m) {
 
 // The plane's homography from at least four points, by the smallest singular vector of normalised
 // coordinates.   Source: Hartley & Zisserman, algorithm 4.2.
-Eigen::Matrix3d Homography(const std::vector<BoardCorner>& corners) {
+Eigen::Matrix3d HomographyOf(const std::vector<BoardCorner>& corners) {
   const auto normalise = [&](bool pixel) {
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     double spread = 0.0;
@@ -313,7 +313,7 @@ Result<SolvedCamera> SolveCamera(std::span<const std::vector<BoardCorner>> views
   problem.ln_focal = std::log(focal_px.value_or(kDefaultFocal * problem.longer_side));
   if (focal_px) problem.sigma_ln_focal = kSigmaLnFocalKnown;
   std::vector<Eigen::Matrix3d> homographies;
-  for (const auto& view : views) homographies.push_back(Homography(view));
+  for (const auto& view : views) homographies.push_back(HomographyOf(view));
   Vector best;
   double least = std::numeric_limits<double>::infinity();
   for (const double factor : {1.0, 0.7, 1.5}) {
