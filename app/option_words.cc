@@ -45,6 +45,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"match.reach", "--reach"},
     {"merge.align", "--align"},
     {"merge.anchor", "--anchor"},
+    {"merge.cosine_fourth", "--cos4"},
     {"merge.exposures", "--exposures"},
     {"merge.iso", "--iso"},
     {"merge.noise", "--noise"},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "lightcal/calibrate/captures/lamp_luminance.h"
@@ -14,7 +15,8 @@ namespace lightcal {
 namespace {
 
 constexpr double kLargestCardUnevenness =
-    0.1;                               // sd of the card's pixels beyond their noise, relative
+    0.1;  // sd of the card's pixels beyond their noise, relative
+constexpr double kExplainedBySlope = 0.85, kInwards = 0.7;  // of the scatter; cosine
 constexpr double kLostSigma = 0.9;     // a pixel's sigma / value where it says nothing
 constexpr double kLargestLost = 0.01;  // share of such pixels
 
@@ -24,6 +26,34 @@ struct CardPatch {
   double noise_sd = 0.0;  // of the mean luminance, relative
   double uneven_sd = 0.0;
 };
+
+// Whether a card grows darker away from the picture's middle, by a slope that explains most of its
+// unevenness: the lens does that.
+bool DarkensOutwards(const MergedBracket& merged, const Region& card) {
+  double sum = 0.0, sum2 = 0.0, across = 0.0, down = 0.0;
+  for (int y = 0; y < card.height; ++y) {
+    for (int x = 0; x < card.width; ++x) {
+      const auto i = static_cast<std::size_t>(card.y + y) * static_cast<std::size_t>(merged.width) +
+                     static_cast<std::size_t>(card.x + x);
+      const double value = LuminanceOfRgb(RgbAt(merged, i), RgbSpace::kSrgb);
+      sum += value;
+      sum2 += value * value;
+      across += value * (x - 0.5 * (card.width - 1));
+      down += value * (y - 0.5 * (card.height - 1));
+    }
+  }
+  const double count = static_cast<double>(card.width) * card.height;
+  const double width2 = card.width * card.width - 1.0, height2 = card.height * card.height - 1.0;
+  // Least squares: the slopes, and what of the scatter they explain.
+  const double slope_x = across / (count * std::max(width2, 1.0) / 12.0);
+  const double slope_y = down / (count * std::max(height2, 1.0) / 12.0);
+  const double explained = slope_x * across + slope_y * down;
+  const double to_x = 0.5 * merged.width - (card.x + 0.5 * card.width);
+  const double to_y = 0.5 * merged.height - (card.y + 0.5 * card.height);
+  const double inwards = slope_x * to_x + slope_y * to_y;
+  return explained > kExplainedBySlope * (sum2 - sum * sum / count) &&
+         inwards > kInwards * std::hypot(slope_x, slope_y) * std::hypot(to_x, to_y);
+}
 
 Result<CardPatch> MeasureCard(const MergedBracket& merged, const Region& card) {
   double sum[3] = {}, luminance = 0.0, luminance2 = 0.0, variance = 0.0;
@@ -57,9 +87,15 @@ Result<CardPatch> MeasureCard(const MergedBracket& merged, const Region& card) {
   patch.noise_sd = kInterpolatedNoise * std::sqrt(variance) / luminance;
   patch.uneven_sd = std::sqrt(std::max(0.0, scatter2 - variance / count)) / mean;
   if (patch.uneven_sd > kLargestCardUnevenness) {
+    const std::string cause =
+        DarkensOutwards(merged, card)
+            ? ". It grows darker away from the picture's middle, as a lens makes it (vignetting): "
+              "put the card into the middle, or give camera = a profile with a flat field; else "
+              "give its place with rect = [x, y, width, height], inside its edges"
+            : "; give its place with rect = [x, y, width, height], inside its edges";
     return Refused("card_uneven", "rect",
                    "what should be the card varies by " + RoundedText(100.0 * patch.uneven_sd, 2) +
-                       " %; give its place with rect = [x, y, width, height], inside its edges");
+                       " %" + cause);
   }
   return patch;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
@@ -12,6 +13,7 @@
 #include "lightcal/imaging/bracket/picture_scale.h"
 #include "lightcal/imaging/bracket/prepare_frames.h"
 #include "lightcal/imaging/bracket/release_rows.h"
+#include "lightcal/light/effects/vignetting.h"
 
 namespace lightcal {
 namespace {
@@ -103,6 +105,23 @@ std::vector<double> LightVariances(const BracketMerger& merger, const PlannedMer
   return variances;
 }
 
+// Of a picture scaled by a camera's profile that does not know its lens.
+void WarnOfLens(const FrameInfo& info, const BracketMergeRequest& request, MergedBracket& merged) {
+  if (!request.camera || request.raw || merged.corrections.flat()) return;
+  double corner = effects::kCornerDefault_rad;
+  if (info.view && info.view->projection == Projection::kRectilinear) {
+    corner = std::atan(std::tan(0.5 * info.view->field_of_view.value()) *
+                       std::hypot(1.0, static_cast<double>(info.height) / info.width));
+  }
+  merged.warnings.push_back(
+      {"vignetting_unknown", info.file,
+       "no flat field takes out what the lens loses towards the corners: about " +
+           PercentText(1.0 - std::pow(std::cos(corner), 4)) + " there (cos^4, " +
+           RoundedText(corner * 180.0 / std::numbers::pi, 2) +
+           " degrees off the axis), more wide open, and sigma does not hold it. Add frames with "
+           "use = \"flat\" to the camera's session, or give {merge.cosine_fourth}"});
+}
+
 void WarnOfClipping(MergedBracket& merged) {
   if (merged.clipped_fraction <= 0.0) return;
   merged.warnings.push_back(
@@ -171,6 +190,7 @@ Result<MergedBracket> MergeFrames(const Bracket& bracket, const FrameLoader& loa
   merged.clipped_fraction = static_cast<double>(*clipped) /
                             static_cast<double>(merger->frames()[0].row_samples()) / merged.height;
   WarnOfClipping(merged);
+  WarnOfLens(bracket.frames.front(), request, merged);
   return merged;
 }
 

@@ -88,6 +88,8 @@ using FrameLoader = std::function<Result<MaskedPicture>(const FrameInfo& info, S
 // no_colour (a space asked of a picture without), no_codes (a response stated of other frames than
 // codes), and as CheckKnownCamera, CorrectionsOf, `load`, RecoverResponse, PlanMerge,
 // MeasureAlignment, MergePicture. An anchor's place is in the pixels of the shortest frame.
+// Warns: vignetting_unknown (a camera's profile without a flat field; not of raw), clipped, and as
+// they do.
 [[nodiscard]] Result<MergedBracket> MergeFrames(const Bracket& bracket, const FrameLoader& load,
                                                 const BracketMergeRequest& request);
 
