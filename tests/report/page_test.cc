@@ -80,11 +80,18 @@ TEST(ReportPage, HasNoNumberThatIsNone) {
 }
 
 TEST(ReportPage, SaysWhatAnArtistAndAnAuditorAsk) {
-  const std::string page = ReportPage(
-      FileOf({WarmPoint()}), "Desk lamp",
-      {.engines = {.figures = {{"key", "glTF", "intensity", "1928.4", "cd", "with its colour"},
-                               {"other", "x", "y", "z", "", ""}},
-                   .parity = {}}});
+  EngineFigure figure;
+  figure.light = "key";
+  figure.engine = "glTF";
+  figure.field = "intensity";
+  figure.value = "1928.4";
+  figure.unit = "cd";
+  figure.note = "with its colour";
+  EngineFigure others = figure;
+  others.light = "other";
+  others.engine = "x";
+  const std::string page = ReportPage(FileOf({WarmPoint()}), "Desk lamp",
+                                      {.engines = {.figures = {figure, others}, .parity = {}}});
   for (const char* words : {"Desk lamp",
                             "key",
                             "point light",
