@@ -10,7 +10,6 @@
 
 #include "lightcal/core/result.h"
 #include "lightcal/imaging/bracket/label_choices.h"
-#include "lightcal/imaging/bracket/light_changes.h"
 #include "lightcal/imaging/bracket/sampled.h"
 
 namespace lightcal {
@@ -27,10 +26,7 @@ struct ExposureRatios {
   // Share of the clip up to which frames agree: below 0.9 where the sensor bends earlier.
   double linear_to = 0.9;
   double gauge_sd = 0.0, power_sd = 0.0;  // as WeighLabels has them; 0 without a curve
-  // Of ln_exposure about their mean, row by row, where light changed in part of the picture and
-  // nothing tells in which; empty elsewhere.
-  std::vector<double> covariance;
-  Warnings warnings;  // ratio_from_label, exposure_off, labels_disagree, light_changed
+  Warnings warnings;                      // ratio_from_label, exposure_off, labels_disagree
 };
 
 // One number a frame, from all pairs with a common range. A pair's ratio is sum b / sum a over
@@ -41,17 +37,11 @@ struct ExposureRatios {
 //   accuracy: 0.05 % on 1e5 shared samples with labels wrong by up to 2 EV
 // `curve`: through which codes were read. It is wrong by kLeastStatedMisfit, so that labels are
 // weighed beside what is measured through it (label_choices.h).
-// Where regions of the picture disagree about a pair's ratio (light_changes.h) and no `shift` of
-// the camera explains it, the light changed in part of it. No one knows in which, so that the ratio
-// is the middle of theirs within half of their range; pairs whose regions agree may see nothing
-// else and are as unsure as the widest. All m pairs err alike (sqrt(m) of it), and labels are
-// weighed beside (kLabelSd each). Not through a curve, whose bends look alike. Refused:
-// exposures_disagree (measured and label differ by more than 1 EV: frames shuffled, or exposures
-// typed in another order than the files).
+// Refused: exposures_disagree (measured and label differ by more than 1 EV: frames shuffled, or
+// exposures typed in another order than the files).
 [[nodiscard]] Result<ExposureRatios> MeasureExposureRatios(
     const SampledSignals& signals, std::span<const double> label,
-    std::span<const std::string> names, const std::optional<CurvePower>& curve = {},
-    const ShiftTest& shift = {});
+    std::span<const std::string> names, const std::optional<CurvePower>& curve = {});
 
 // Of a measured exposure, whose ln is off by `off` from its label's. Refused: exposures_disagree,
 // by more than 1 EV. Warns: exposure_off, by more than .25 EV.

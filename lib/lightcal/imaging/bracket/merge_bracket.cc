@@ -55,7 +55,6 @@ std::vector<kernels::Lanes> LimitsOf(const SignalFrame& frame, double share) {
 
 bool IsSound(const MergePlan& plan, std::size_t frames) {
   if (frames == 0 || plan.exposure.size() != frames || plan.noise.size() != frames) return false;
-  if (!plan.light2.empty() && plan.light2.size() != frames) return false;
   for (std::size_t i = 0; i < frames; ++i) {
     const NoiseProfile& noise = plan.noise[i];
     if (!(plan.exposure[i] > 0.0) || (i > 0 && plan.exposure[i] < plan.exposure[i - 1])) {
@@ -134,7 +133,6 @@ class RowMerger {
                            .used = used_.data(),
                            .chi2 = out.chi2 == nullptr ? nullptr : out.chi2 + x,
                            .degrees = out.degrees == nullptr ? nullptr : out.degrees + x});
-      if (!plan_.light2.empty()) WidenByLight(samples, out.value + x, out.variance + x);
       clipped += static_cast<std::size_t>(
           std::count(used_.begin(), used_.begin() + static_cast<std::ptrdiff_t>(samples), -1.0F));
     }
@@ -142,13 +140,6 @@ class RowMerger {
   }
 
  private:
-  void WidenByLight(std::size_t samples, const float* value, float* variance) const {
-    for (std::size_t i = 0; i < samples; ++i) {
-      if (used_[i] < 0.0F) continue;
-      const double light2 = plan_.light2[static_cast<std::size_t>(used_[i])];
-      variance[i] += static_cast<float>(light2) * value[i] * value[i];
-    }
-  }
   void Read(int y, std::size_t x, std::size_t samples) {
     for (std::size_t k = 0; k < frames_.size(); ++k) {
       ReadSignals(frames_[k], y, x, std::span(signals_).subspan(k * kernels::kBlock, samples));

@@ -26,9 +26,6 @@ struct MergePlan {
   double usable = 0.9;  // share of the clip up to which a sensor is believed
   double floor = 0.0;   // signal below which codes say nothing (encoded frames clip at black)
   double fixed_pattern = kMiddlingFixedPattern;  // p: pixels differ in sensitivity by p (1 sigma)
-  // Of each frame, variance of ln(exposure) for light that changed in part of the picture; empty:
-  // none. Alike in all pixels that rest on a frame.
-  std::vector<double> light2{};
   MergeEstimator estimator = MergeEstimator::kLikelihood;
   std::shared_ptr<const EncodedErrors> encoded{};  // of frames whose codes came through a curve
 };
@@ -44,7 +41,6 @@ struct MergePlan {
 // Clipped in every frame: X is the shortest frame's, a lower bound, and its standard deviation is
 // X. The other estimators differ in w, of the frames that count, and look for no contradictions. Of
 // codes, 1/sum w is taken times the place's factor (encoded_errors.h):
-//   Var X += light2 X^2 of the longest frame that counts, of every estimator
 //   sums     w = t / scale: sum y / sum t of frames at one ISO
 //   longest  all weight on the longest frame that counts
 //   Var X = sum (w/t)^2 (scale X t + offset) / (sum w)^2 + (p X)^2

@@ -81,30 +81,6 @@ Result<std::size_t> MergeInBands(const BracketMerger& merger, const PictureRows&
   return clipped;
 }
 
-// Of every frame's ln(exposure) where light changed in part of the picture, about that of the frame
-// which the scale is of: an anchor's place is known, whatever it rests on; else about their mean.
-std::vector<double> LightVariances(const BracketMerger& merger, const PlannedMerge& planned,
-                                   const BracketMergeRequest& request, double nits_per_unit) {
-  const std::size_t n = merger.frames().size();
-  if (planned.light_covariance.empty()) return {};
-  const auto covariance = [&](std::size_t i, std::size_t j) {
-    return planned.light_covariance[i * n + j];
-  };
-  std::size_t anchor = 0;  // the longest frame that its place is read from
-  for (std::size_t k = 0; request.anchor && k < n; ++k) {
-    const double signal =
-        request.anchor->luminance.value() / nits_per_unit * merger.plan().exposure[k];
-    if (signal < merger.plan().usable * double{merger.frames()[k].clip[0]}) anchor = k;
-  }
-  std::vector<double> variances;
-  for (std::size_t k = 0; k < n; ++k) {
-    variances.push_back(request.anchor ? covariance(k, k) + covariance(anchor, anchor) -
-                                             2.0 * covariance(k, anchor)
-                                       : covariance(k, k));
-  }
-  return variances;
-}
-
 // Of a picture scaled by a camera's profile that does not know its lens.
 void WarnOfLens(const FrameInfo& info, const BracketMergeRequest& request, MergedBracket& merged) {
   if (!request.camera || request.raw || merged.corrections.flat()) return;
@@ -178,12 +154,8 @@ Result<MergedBracket> MergeFrames(const Bracket& bracket, const FrameLoader& loa
   const View2d<float> sigma = request.want_sigma
                                   ? View2d<float>(merged.sigma.data(), merged.width, merged.height)
                                   : View2d<float>();
-  MergePlan plan = (*prepared)->planned.plan;
-  plan.light2 = LightVariances(*merger, (*prepared)->planned, request, merged.nits_per_unit);
-  const auto widened = BracketMerger::Make((*prepared)->signals, plan);
-  if (!widened) return tl::unexpected(widened.error());
   const auto clipped = MergeInBands(
-      *widened, RowsOf(**prepared, request, merged.nits_per_unit), **prepared,
+      *merger, RowsOf(**prepared, request, merged.nits_per_unit), **prepared,
       View2d<float>(merged.picture.data(), merged.width, merged.height, merged.channels), sigma,
       PartOf(request.progress, kLoadingShare, 1.0));
   if (!clipped) return tl::unexpected(clipped.error());

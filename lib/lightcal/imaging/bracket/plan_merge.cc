@@ -239,10 +239,7 @@ Result<ExposureRatios> RatiosOf(const SampledSignals& signals, const MergeReques
   for (const SignalFrame& frame : frames) names.push_back(frame.name);
   const bool stated = frames.front().response != nullptr;
   return MeasureExposureRatios(signals, label, names,
-                               stated ? std::optional(CurvePower{}) : std::nullopt,
-                               [&](std::size_t a, std::size_t b, double ratio) {
-                                 return IsShift(frames[a], frames[b], ratio);
-                               });
+                               stated ? std::optional(CurvePower{}) : std::nullopt);
 }
 
 // Pixels that another frame and the labels foretell to be well exposed here, and those that are.
@@ -334,11 +331,6 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
     planned.ln_exposure.push_back(ratios->ln_exposure[i]);
     planned.sd_ln.push_back(ratios->sd_ln[i]);
     planned.measured.push_back(ratios->measured[i]);
-    for (const std::size_t j : order) {
-      if (!ratios->covariance.empty()) {
-        planned.light_covariance.push_back(ratios->covariance[i * order.size() + j]);
-      }
-    }
     planned.plan.exposure.push_back(
         std::exp(ratios->ln_exposure[i] - ratios->ln_exposure[order.front()]));
   }

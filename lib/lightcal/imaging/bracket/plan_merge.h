@@ -38,13 +38,12 @@ struct PlannedMerge {
   std::vector<double> ln_exposure;  // of the merge's i-th frame, in the labels' unit
   std::vector<double> sd_ln;
   std::vector<bool> measured;
-  std::vector<double> light_covariance;  // ExposureRatios::covariance, in the order above
-  std::vector<double> usable_share;      // of each frame's samples, below the level believed
+  std::vector<double> usable_share;  // of each frame's samples, below the level believed
   // Of the gauge: what the labels leave uncertain about all exposures together (1 sigma, relative).
   double gauge_sd = 0.0;
   NoiseSource noise_source = NoiseSource::kEstimated;
-  // duplicate_frame, ratio_from_label, exposure_off, labels_disagree, light_changed,
-  // noise_disagrees, noise_assumed, one_frame
+  // duplicate_frame, ratio_from_label, exposure_off, labels_disagree, noise_disagrees,
+  // noise_assumed, one_frame
   Warnings warnings;
 };
 

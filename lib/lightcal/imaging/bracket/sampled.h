@@ -18,7 +18,6 @@ inline constexpr float kClippedFrom = 0.98F;
 struct SampledSignals {
   std::vector<std::vector<float>> frames;  // the same samples of every frame
   std::vector<float> clip;                 // of each sample
-  std::size_t row_samples = 0;             // of one row of the picture; 0: they are no rows
 };
 
 // The clips that levels of two frames are shares of: those of the samples, and where no clip is
