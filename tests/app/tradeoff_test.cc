@@ -186,8 +186,8 @@ TEST(TradeoffCommand, AFinePhotometricTableShowsWhatItsStepIsWorth) {
   EXPECT_GT(error("10 deg"), 2.0 * error("5 deg"));
   EXPECT_NEAR(error("5 deg"), 1.21e-2, 3e-3);
   EXPECT_NEAR(error("10 deg"), 4.9e-2, 1.2e-2);
-  // They move what is answered, whatever they take.
-  for (const char* level : {"2.5 deg", "5 deg", "10 deg", "10000 draws", "1000 draws"}) {
+  // They move what is answered, whatever they take; draws take time alone, which a load hides.
+  for (const char* level : {"2.5 deg", "5 deg", "10 deg"}) {
     EXPECT_TRUE(bool(rows.at(level)["in_play"])) << level;
   }
   EXPECT_EQ(rows.at("10 deg")["error_in"]["quantity"], "flux");
