@@ -62,10 +62,10 @@ TEST(PictureFile, APlotIsPaintedAtTwiceItsSizeInTheColoursOfALightScreen) {
   EXPECT_EQ(Color({"--cct", "3200", "--sigma", "1%", "--plot", file}).exit_code, 0);
   const Picture plot = Decoded(test::ReadFile(file));
   EXPECT_EQ(plot.width, 960U);
-  EXPECT_EQ(plot.height, 680U);
+  EXPECT_EQ(plot.height, 772U);  // the legend stands below
   EXPECT_EQ(plot.At(2, 2), (Picture::Rgb{255, 255, 255}));
-  // Paper all round the 384 x 270 of the plot, less the labels.
-  constexpr int kAround = 960 * 680 - 768 * 540;
+  // Paper all round the 384 x 270 of the plot, less the labels and the legend.
+  constexpr int kAround = 960 * 772 - 768 * 540;
   EXPECT_LT(plot.CountOf({255, 255, 255}), kAround + 1000);
   EXPECT_GT(plot.CountOf({255, 255, 255}), 0.95 * kAround);
   EXPECT_GT(plot.CountOf({0x15, 0x18, 0x1c}), 1000);  // the locus, the colour and its axes' names
@@ -79,9 +79,9 @@ TEST(PictureFile, AVectorGraphicIsPaintedToo) {
   EXPECT_EQ(Color({"--spectrum", "illuminant:FL4", "--vector-graphic", file}).exit_code, 0);
   const Picture graphic = Decoded(test::ReadFile(file));
   EXPECT_EQ(graphic.width, 960U);
-  EXPECT_EQ(graphic.height, 960U);
-  // Paper round the disc of the hues, 1.36 times 150 px, less the labels.
-  const double around = 960.0 * 960.0 - std::numbers::pi * 408.0 * 408.0;
+  EXPECT_EQ(graphic.height, 1012U);
+  // Paper round the disc of the hues, 1.36 times 150 px, less the labels and the legend.
+  const double around = 960.0 * 1012.0 - std::numbers::pi * 408.0 * 408.0;
   EXPECT_NEAR(graphic.CountOf({255, 255, 255}), around, 0.02 * around);
 }
 
