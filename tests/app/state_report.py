@@ -44,8 +44,8 @@ def the_figure_shows_readings_curve_band_and_promise():
     run("report", PANELS, "--light", "panel", "-o", "page.html", "--plot", "output=output.svg",
         "--plot", "cct=cct.svg", "--plot", "cct2=cct2.svg")
     svg = ElementTree.parse(HOME / "output.svg").getroot()
-    marks = sorted((float(c.get("cx")), float(c.get("cy"))) for c in of_class(svg, "circle", "used"))
-    assert len(marks) == 5, marks
+    legend, *marks = sorted((float(c.get("cx")), float(c.get("cy"))) for c in of_class(svg, "circle", "used"))
+    assert legend == (11, 6) and len(marks) == 5, (legend, marks)
     labels = sorted(LUX)
     percent = [100 * LUX[k] / LUX[100] for k in labels]
     x, y = np.array(marks).T

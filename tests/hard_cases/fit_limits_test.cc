@@ -140,9 +140,10 @@ TEST(HardCaseF, F23AmbientAtItsBoundHasAOneSidedInterval) {
 }
 
 // Groups of `each` readings at ten distances, `groups` times; or each group's mean of ln E alone.
+// Distances are exact: what all rows of one share adds up to more than either's rounding.
 void WriteJournal(const TempDir& folder, int groups, int each, bool averaged) {
   const std::string lamp = "lightcal = 1\n[[light]]\nname = \"key\"\nkind = \"point\"\n";
-  folder.Write("session.toml", lamp + kDarkBulb);
+  folder.Write("session.toml", lamp + "distance_sigma_m = 0\n" + kDarkBulb);
   std::mt19937_64 random(24);
   std::normal_distribution<double> normal;
   std::string journal;

@@ -94,6 +94,8 @@ bool RoundedToInches(const Session& session, const LightDescription& light) {
 void WidenByDistances(const LightDescription& light, Observations& observations) {
   if (!HasDistanceLaw(light.kind)) return;
   constexpr double kNearestSource = 0.3;  // of the distance
+  // Within a centimetre the offset's prior says more, and a reading is no noise for that.
+  constexpr double kMost = 0.4;
   const double offset = OffsetOf(light);
   std::vector<Observation*> rows;
   for (Observation& row : observations.rows) {
@@ -110,7 +112,7 @@ void WidenByDistances(const LightDescription& light, Observations& observations)
     for (; first != last; ++first) {
       Observation& row = **first;
       const double r = std::max(row.distance_m + offset, kNearestSource * row.distance_m);
-      row.by_distance = 2.0 * shared * *row.distance_sigma_m / r;
+      row.by_distance = shared * std::min(kMost, 2.0 * *row.distance_sigma_m / r);
       row.sigma_lx = std::hypot(row.sigma_lx, row.by_distance * row.measured_lx);
     }
   }

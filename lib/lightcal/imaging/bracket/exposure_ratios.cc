@@ -28,7 +28,6 @@ constexpr double kModelSd = 2e-4;       // what no residual shows: black levels,
 constexpr double kLabelRatioSd = 0.06;  // of a label's ln ratio: third-stop rounding, 3 % shutter
 constexpr double kBelievedTo = 0.8;     // of the clip, when ratios are summed
 constexpr double kStraightTo = 0.5;     // every sensor is linear up to here
-constexpr double kBlackSd = 3e-4;       // of full scale: of black levels, where a bend is sought
 constexpr double kBendShare = 1e-3;     // departure that counts as a bend
 constexpr double kBendSigmas = 4.0;
 constexpr double kHighestLinear = 0.9;
@@ -152,38 +151,6 @@ std::optional<PairRatio> MeasurePair(const SampledSignals& signals, std::size_t 
   return pair;
 }
 
-// Mean residual of a level, offset + slope a, and its variance.
-struct StraightLine {
-  double offset = 0.0, slope = 0.0;
-  double offset2 = 0.0, cross = 0.0, slope2 = 0.0;  // covariance
-};
-
-// Of the levels at which every sensor is linear. Black levels that are off leave the offset, and
-// must not look like a bend.
-std::optional<StraightLine> StraightLineOf(const PairSums& sums) {
-  double one = 0.0, a = 0.0, aa = 0.0, d = 0.0, da = 0.0, exposures = 0.0;
-  int levels = 0;
-  for (int bin = 0; bin < kLevelBins; ++bin) {
-    if (BinLowerLevel(bin + 1) > kStraightTo) break;
-    const LevelSums& sum = sums[static_cast<std::size_t>(bin)];
-    if (sum.count < kLeastSharedSamples || !(sum.d2 > 0.0) || !(sum.a > 0.0)) continue;
-    const double weight = sum.count * sum.count / sum.d2;
-    const double mean_a = sum.a / sum.count, mean_d = sum.d / sum.count;
-    one += weight;
-    a += weight * mean_a;
-    aa += weight * mean_a * mean_a;
-    d += weight * mean_d;
-    da += weight * mean_a * mean_d;
-    exposures = std::max(exposures, sum.b / sum.a);
-    ++levels;
-  }
-  if (levels < 2) return std::nullopt;
-  one += 1.0 / std::pow(kBlackSd * (1.0 + exposures), 2);
-  const double determinant = one * aa - a * a;
-  return StraightLine{(aa * d - a * da) / determinant, (one * da - a * d) / determinant,
-                      aa / determinant, -a / determinant, one / determinant};
-}
-
 // The level from which longer frames fall behind what shorter ones predict, over all pairs. Where
 // nobody knows the clip there is no level.
 double LinearTo(std::span<const PairRatio> pairs) {
@@ -192,13 +159,12 @@ double LinearTo(std::span<const PairRatio> pairs) {
     double behind = 0.0, of = 0.0, variance = 0.0;
     for (const PairRatio& pair : pairs) {
       if (!pair.clip_known) continue;
-      const auto straight = StraightLineOf(pair.sums);
+      const auto straight = TellingLevels(pair.sums, kStraightTo);
       const LevelSums& sum = pair.sums[static_cast<std::size_t>(bin)];
       if (!straight || sum.count < kLeastSharedSamples) continue;
-      behind += sum.d - straight->offset * sum.count - straight->slope * sum.a;
+      behind += sum.b - straight->b / straight->a * sum.a;
       of += sum.b;
-      variance += sum.d2 + sum.count * sum.count * straight->offset2 +
-                  2.0 * sum.count * sum.a * straight->cross + sum.a * sum.a * straight->slope2;
+      variance += sum.d2;
     }
     if (std::abs(behind) > std::max(kBendShare * of, kBendSigmas * std::sqrt(variance))) {
       return BinLowerLevel(bin);
