@@ -39,7 +39,7 @@ namespace lightcal::fit {
 
 // Of a lamp with a table, beside the observations: 1 sigma of ln I between its nodes
 // (Observation::table_error), times the root of how many readings share it: nodes miss neighbouring
-// directions alike. Empty where all face a node.
+// directions alike. 0 at a node.
 [[nodiscard]] std::vector<double> UnevenByTable(const Observations& observations);
 
 }  // namespace lightcal::fit

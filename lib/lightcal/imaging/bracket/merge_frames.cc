@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
@@ -93,7 +92,7 @@ void WarnOfLens(const FrameInfo& info, const BracketMergeRequest& request, Merge
       {"vignetting_unknown", info.file,
        "no flat field takes out what the lens loses towards the corners: about " +
            PercentText(1.0 - std::pow(std::cos(corner), 4)) + " there (cos^4, " +
-           RoundedText(corner * 180.0 / std::numbers::pi, 2) +
+           RoundedText(DegreesFromRadians(Radians(corner)), 2) +
            " degrees off the axis), more wide open, and sigma does not hold it. Add frames with "
            "use = \"flat\" to the camera's session, or give {merge.cosine_fourth}"});
 }

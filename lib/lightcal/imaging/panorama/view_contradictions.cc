@@ -73,8 +73,6 @@ std::vector<std::size_t> OddViews(const std::vector<ViewOverlap>& overlaps, std:
   }
 }
 
-std::string PercentOf(double share) { return RoundedText(100.0 * share, 2) + " %"; }
-
 // "; without view 2 (b.exr) the others agree"
 std::string WordsOfOdd(const std::vector<std::size_t>& odd, const std::vector<std::string>& names) {
   if (odd.empty() || 2 * odd.size() > names.size()) return "";
@@ -143,16 +141,16 @@ Result<std::string> JudgeOverlaps(const std::vector<ViewOverlap>& overlaps,
                    "view " + std::to_string(worst.b + 1) + " and view " +
                        std::to_string(worst.a + 1) + " (" + names[worst.a] +
                        ") do not show one place where their aims say they do: " +
-                       PercentOf(worst.contradicting) +
+                       PercentText(worst.contradicting, 2) +
                        " of what they share is not in the other, "
                        "even within 6 degrees, and " +
-                       PercentOf(worst.apart) + " differs by more than 10 %" +
+                       PercentText(worst.apart, 2) + " differs by more than 10 %" +
                        odd(&ViewOverlap::unmatched, kMostUnmatched));
   }
   const ViewOverlap& farthest = *std::ranges::max_element(judged, {}, &ViewOverlap::apart);
   if (farthest.apart <= kMostApartShare) return std::string();
   return "view " + std::to_string(farthest.a + 1) + " and view " + std::to_string(farthest.b + 1) +
-         " differ by more than 10 % in " + PercentOf(farthest.apart) +
+         " differ by more than 10 % in " + PercentText(farthest.apart, 2) +
          " of what they share, as if an aim were off by some degrees" +
          odd(&ViewOverlap::apart, kMostApartShare);
 }

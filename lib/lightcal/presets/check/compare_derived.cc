@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "lightcal/presets/check/rig_file.h"
 #include "lightcal/presets/preset_table.h"
 #include "lightcal/records/json_codec.h"
 
@@ -16,24 +17,6 @@ namespace lightcal {
 namespace {
 
 using records::Node;
-
-// The pipeline's space and white, as any light of the file says them.
-ColorTarget TargetIn(const Node& light) {
-  ColorTarget target;
-  const Node* color = light.Find("color");
-  const Node* pipeline = color == nullptr ? nullptr : color->Find("pipeline_linear");
-  if (pipeline == nullptr) return target;
-  if (const Node* space = pipeline->Find("space")) {
-    for (const RgbSpace known : kRgbSpaces) {
-      if (RgbSpaceWord(known) == space->text) target.space = known;
-    }
-  }
-  const Node* white = pipeline->Find("white_xy");
-  if (white != nullptr && white->items.size() == 2) {
-    target.white = Xy{white->items[0].number, white->items[1].number};
-  }
-  return target;
-}
 
 // ---- leaves ----
 
@@ -178,7 +161,7 @@ std::vector<DerivedOff> CompareDerived(const std::string& preset_json, const Lig
   if (lights == nullptr || lights->items.empty()) return {};
   PresetOptions options;
   options.written = Written::kNoPictures;
-  options.color = TargetIn(lights->items.front());
+  options.color = PipelineIn(lights->items.front());
   std::optional<std::vector<DerivedOff>> fewest;
   for (const std::optional<Metres>& range : RangesIn(*lights)) {
     for (const SpotForm form : {SpotForm::kAuto, SpotForm::kIes, SpotForm::kCone}) {

@@ -2,6 +2,7 @@
 #include "lightcal/presets/check/engine_answers.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
 
@@ -154,16 +155,15 @@ EngineAnswers EngineAnswersOf(const LightFile& lights, const Pictures& environme
   EngineAnswers answers;
   for (std::size_t i = 0; i < lights.lights.size(); ++i) {
     const FittedLight& lamp = lights.lights[i];
+    const std::size_t first = answers.figures.size();
     AddWhite(lamp, answers.figures);
     for (const EngineExport& exported : exports) {
       AddFigure(lamp.name, *exported.engine, exported.derived[i], answers.figures);
     }
-    if (const std::string place = PlaceText(lamp); !place.empty()) {
-      for (EngineFigure& figure : answers.figures) {
-        if (figure.light != lamp.name) continue;
-        figure.place = place;
-        Append(place, "; ", figure.note);
-      }
+    const std::string place = PlaceText(lamp);
+    for (std::size_t own = first; own < answers.figures.size(); ++own) {
+      answers.figures[own].place = place;
+      Append(place, "; ", answers.figures[own].note);
     }
   }
   answers.parity = ParityOf(lights, exports, environments);

@@ -103,20 +103,13 @@ CheckedLamp LampFrom(Finder& find, const Node& json) {
   return lamp;
 }
 
-// Plain Rec. 709 where the file says nothing else.
+// As PipelineIn, of a rig, which is nothing without its white.
 ColorTarget PipelineOf(Finder& find, const Node& lamp) {
   const Node* const linear = find.Part(lamp, "color").Find("pipeline_linear");
   if (linear == nullptr || linear->Find("space") == nullptr) return {};
-  ColorTarget target;
-  const std::string word = find.Text(*linear, "space");
-  for (const RgbSpace space : kRgbSpaces) {
-    if (RgbSpaceWord(space) == word) target.space = space;
-  }
-  const Node& white = find.Part(*linear, "white_xy");
-  if (white.items.size() == 2 && white.items[1].IsNumber() && white.items[1].number > 0.0) {
-    target.white = Xy{white.items[0].number, white.items[1].number};
-  }
-  return target;
+  (void)find.Text(*linear, "space");
+  (void)find.Part(*linear, "white_xy");
+  return PipelineIn(lamp);
 }
 
 void FindCamera(Finder& find, const Node& json, CheckedRig& rig) {
@@ -175,6 +168,23 @@ bool IsUsable(const CheckedRig& rig) {
 }
 
 }  // namespace
+
+ColorTarget PipelineIn(const Node& light) {
+  ColorTarget target;
+  const Node* const color = light.Find("color");
+  const Node* const pipeline = color == nullptr ? nullptr : color->Find("pipeline_linear");
+  if (pipeline == nullptr) return target;
+  if (const Node* const space = pipeline->Find("space")) {
+    for (const RgbSpace known : kRgbSpaces) {
+      if (RgbSpaceWord(known) == space->text) target.space = known;
+    }
+  }
+  const Node* const white = pipeline->Find("white_xy");
+  if (white != nullptr && white->items.size() == 2 && white->items[1].number > 0.0) {
+    target.white = Xy{white->items[0].number, white->items[1].number};
+  }
+  return target;
+}
 
 Result<CheckedRig> RigFromPreset(const std::string& text, const std::string& path) {
   const auto root = records::ParseJson(text);

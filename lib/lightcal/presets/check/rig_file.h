@@ -11,6 +11,7 @@
 #include "lightcal/core/vec3.h"
 #include "lightcal/presets/light_color.h"
 #include "lightcal/presets/turned_panorama.h"
+#include "lightcal/records/document.h"
 
 namespace lightcal {
 
@@ -50,6 +51,10 @@ struct CheckedRig {
   std::optional<CheckedPanorama> panorama{};
   ColorTarget pipeline{};  // what the engines of its export got their colours in
 };
+
+// The space and white of the pipeline that a preset.json was exported for, as any of its lights
+// says them; plain Rec. 709 where it says nothing else.
+[[nodiscard]] ColorTarget PipelineIn(const records::Node& light);
 
 // Refused: bad_rig (names what is missing), no_rig (a bare preset).
 [[nodiscard]] Result<CheckedRig> RigFromPreset(const std::string& text, const std::string& path);
