@@ -113,6 +113,7 @@ Result<CapturePicture> MergeCapture(const Session& session, const CaptureDescrip
   BracketMergeRequest request;
   request.anchor = anchor;
   request.want_sigma = true;
+  request.lens_held = true;  // by the session's budget
   request.work = capture.work;
   request.camera = *std::move(use);
   if (!capture.response.empty()) {
@@ -125,9 +126,6 @@ Result<CapturePicture> MergeCapture(const Session& session, const CaptureDescrip
   if (color->has_colour || profiled) request.space = RgbSpace::kSrgb;
   auto merged = MergeBracket(bracket, sources, request);
   if (!merged) return Propagate(std::move(merged));
-  // A session's budget holds it.
-  std::erase_if(merged->warnings,
-                [](const Warning& warning) { return warning.code == "vignetting_unknown"; });
   return CapturePicture{info, *std::move(color), *std::move(camera), ThinningOf(info, capture.work),
                         *std::move(merged)};
 }

@@ -82,7 +82,7 @@ Result<std::size_t> MergeInBands(const BracketMerger& merger, const PictureRows&
 
 // Of a picture scaled by a camera's profile that does not know its lens.
 void WarnOfLens(const FrameInfo& info, const BracketMergeRequest& request, MergedBracket& merged) {
-  if (!request.camera || request.raw || merged.corrections.flat()) return;
+  if (!request.camera || request.raw || request.lens_held || merged.corrections.flat()) return;
   double corner = effects::kCornerDefault_rad;
   if (info.view && info.view->projection == Projection::kRectilinear) {
     corner = std::atan(std::tan(0.5 * info.view->field_of_view.value()) *

@@ -47,7 +47,8 @@ struct BracketMergeRequest {
   // Raw red, green and blue per unit of exposure t S/N^2 instead, sigma of green; what a profile is
   // made of. own_noise: from the frames alone, whatever their files say.
   bool raw = false, own_noise = false;
-  bool align = false;  // take back what the camera moved, where there is evidence
+  bool lens_held = false;  // who asks holds what a lens without a flat field loses: not said
+  bool align = false;      // take back what the camera moved, where there is evidence
   PictureChoice work{};
   Progress progress{};
 };
