@@ -47,24 +47,15 @@ std::string ShortName(std::string_view title) {
 }
 
 std::string WithIt(const EngineFigure& figure) {
-  constexpr std::string_view kTemperature = "Temperature ";
-  const auto at = figure.note.find(kTemperature);
-  if (at != std::string::npos) {
-    const auto end = figure.note.find(" K", at);
-    return " + " + figure.note.substr(at + kTemperature.size(), end - at - kTemperature.size()) +
-           " K";
+  std::string with;
+  if (!figure.kelvin.empty()) {
+    with = " + " + figure.kelvin;
+  } else if (HasColor(figure)) {
+    with = " + colour";
   }
-  std::string with = HasColor(figure) ? " + colour" : "";
   if (!figure.with.empty()) with += " + " + figure.with;
-  if (figure.note.find("exported .ies") != std::string::npos) with += " + its .ies";
+  if (!figure.file.empty()) with += " + its " + figure.file;
   return with;
-}
-// Of a luminance, the size that it is of.
-std::string RadiusOf(const EngineFigure& figure) {
-  constexpr std::string_view kRadius = "radius ";
-  const auto at = figure.note.find(kRadius);
-  if (at == std::string::npos) return "";
-  return " at " + figure.note.substr(at, figure.note.find(" m", at) + 2 - at);
 }
 
 // "0.37", "0.10", "0.08", "1.2".
@@ -123,7 +114,7 @@ std::string TypeIn(const std::vector<EngineFigure>& figures) {
   for (const EngineFigure& figure : figures) {
     std::string typed = Typed(figure.value);
     if (!figure.unit.empty()) typed += " " + figure.unit;
-    typed += RadiusOf(figure);
+    if (!figure.size.empty()) typed += " at " + figure.size;
     if (!figure.before.empty()) typed += " (" + figure.before + ")";
     typed += WithIt(figure);
     const auto same = std::ranges::find(groups, typed, &std::pair<std::string, std::string>::first);

@@ -68,3 +68,9 @@ assert "stands" not in rows["Godot"]["note"], rows
 rows, text = figures("quick", "1453lx@1m", "423.5lx@2m", "--kind", "rect", "--size", "120x30cm", "--room", "dark", "--to", "blender")
 now, before = re.search(r"Blender ([\d.]+) W \(before Blender 4.0 ([\d.]+) W\)", text).groups()
 assert abs(float(before) / float(now) * math.pi / 4 - 1) < 0.01, text
+
+# A beam of a known angle is its .ies in Unreal, with a colour and without.
+for color in ((), ("--cct", "5600K")):
+    rows, text = figures("quick", "1920lx@2m", "--beam", "20", *color, "--to", "unreal")
+    kelvin = r" \+ 5600 K" if color else ""
+    assert re.search(r"Unreal [\d.]+ cd" + kelvin + r" \+ its \.ies", " ".join(text.split())), text

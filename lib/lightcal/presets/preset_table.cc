@@ -17,7 +17,7 @@ namespace {
 
 constexpr TypedNote kLinearColor{"color", "color ", " (linear)", true, TypedPart::kColor};
 constexpr TypedNote kEncodedColor{"light_color", "Color ", " (sRGB)", true, TypedPart::kColor};
-constexpr TypedNote kRadius{"radius", "radius ", " m"};
+constexpr TypedNote kRadius{"radius", "radius ", " m", true, TypedPart::kSize};
 
 constexpr TypedNote Cone(std::string_view field, std::string_view before, std::string_view after,
                          double factor = 1.0) {
@@ -86,20 +86,21 @@ constexpr TypedNumber kUnrealNumbers[] = {{"DirectionalLight", "intensity", "Int
                                           {"SkyLight", "intensity", "Intensity of the cubemap", ""},
                                           {"", "intensity", "Intensity", "cd"}};
 constexpr TypedNote kUnrealNotes[] = {
-    {"temperature", "Temperature ", " K"},
+    {"temperature", "Temperature ", " K", true, TypedPart::kTemperature},
     kEncodedColor,
-    {"ies", "with the exported .ies as its IES Texture", "", false},
+    {"ies", "with the exported .ies as its IES Texture", "", false, TypedPart::kFile},
     {"spot_angles_deg", "or of a Spot Light, whose cone angles are ", ""},
     Cone("inner_cone_angle", "Inner Cone Angle ", "°"),
     Cone("outer_cone_angle", "Outer Cone Angle ", "°"),
     {"attenuation_radius", "Attenuation Radius ", " cm"}};
 constexpr TypedNumber kUsdNumbers[] = {{"DistantLight", "intensity", "intensity", "lx"},
                                        {"", "intensity", "intensity", "nits"}};
-constexpr TypedNote kUsdNotes[] = {kLinearColor,
-                                   kRadius,
-                                   {"ies", "with the exported .ies (shaping:ies:file)", "", false},
-                                   Cone("shaping:cone:angle", "shaping:cone:angle ", "°"),
-                                   Cone("shaping:cone:softness", "softness ", "")};
+constexpr TypedNote kUsdNotes[] = {
+    kLinearColor,
+    kRadius,
+    {"ies", "with the exported .ies (shaping:ies:file)", "", false, TypedPart::kFile},
+    Cone("shaping:cone:angle", "shaping:cone:angle ", "°"),
+    Cone("shaping:cone:softness", "softness ", "")};
 constexpr TypedNumber kBlenderNumbers[] = {{"SUN", "energy_W", "Strength", "W/m²"},
                                            {"IES", "spot_power_W", "Power of a plain Spot", "W"},
                                            {"IES", "point_power_W", "Power of a plain Point", "W"},

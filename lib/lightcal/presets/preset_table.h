@@ -26,7 +26,16 @@ struct TypedNumber {
 };
 // What must be set with it: a field of the exported light, `factor` times as large where people see
 // another unit than files have.
-enum class TypedPart : std::uint8_t { kOther, kColor, kCone, kWith, kEarlierVersions };
+enum class TypedPart : std::uint8_t {
+  kOther,
+  kColor,
+  kTemperature,
+  kSize,
+  kCone,
+  kWith,
+  kFile,
+  kEarlierVersions
+};
 struct TypedNote {
   std::string_view field, before, after;
   bool shows_number = true;

@@ -18,8 +18,11 @@ struct EngineFigure {
   std::string unit;    // "cd"; "" where the engine's number has none
   // What must be set with it, each "" where nothing must.
   std::string color;   // "1, 0.5155, 0.194 (linear)"
+  std::string kelvin;  // "3200 K", instead of a color
+  std::string size;    // "radius 0.03 m", which a luminance is of
   std::string cone;    // "Outer Angle 50°, Inner Angle 60 %"
   std::string with;    // "Attenuation 2", without which the number is another lamp
+  std::string file;    // ".ies", exported beside it
   std::string before;  // in earlier versions: "before Blender 4.0 17.71 W"
   std::string place;   // "stands 30 cm behind the point its distances were measured from"
   std::string note;    // all of it, and what the engine makes otherwise

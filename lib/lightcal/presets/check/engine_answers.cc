@@ -48,6 +48,9 @@ void PutNotes(const PresetTarget& engine, const DerivedLight& light, EngineFigur
                          : std::string(row.after);
     const std::string text = std::string(row.before) + value;
     if (row.part == TypedPart::kColor) figure.color = value;
+    if (row.part == TypedPart::kTemperature) figure.kelvin = value;
+    if (row.part == TypedPart::kSize) figure.size = text;
+    if (row.part == TypedPart::kFile) figure.file = ".ies";
     if (row.part == TypedPart::kEarlierVersions) figure.before = text;
     if (row.part == TypedPart::kWith) figure.with = text;
     if (row.part == TypedPart::kCone) Append(text, ", ", figure.cone);
