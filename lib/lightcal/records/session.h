@@ -64,6 +64,7 @@ struct LightDescription {
   std::optional<Metres> diameter;        // sphere, disk
   std::optional<Metres> width, height;   // rect
   std::optional<Metres> length, radius;  // tube
+  double face_sd = 0.0;                  // of the face's area, relative, where a picture gave it
   std::optional<Radians> inner, outer;   // half angles of the cone
   std::optional<Watts> electrical;       // data sheet
   std::optional<Lumens> flux;            // data sheet

@@ -28,6 +28,8 @@ struct CaptureReading {
   double shared_sd = 0.0;       // relative: with other captures of this light by this camera
   // The light with sizes that its picture gave; absent where pictures tell none.
   std::optional<LightDescription> sized{};
+  // Why its picture tells no size, where one was looked for; a capture of the same light may.
+  std::optional<Error> unsized{};
   PictureFacts found{};
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "lightcal/calibrate/captures/capture_reading.h"
@@ -60,6 +61,7 @@ Result<CaptureReadings> ReadCaptures(const Session& session, const Sources& sour
   CaptureReadings out;
   out.captures = session.captures;
   std::vector<Error> refusals;
+  std::vector<std::pair<std::string, Error>> unsized;  // by light
   for (std::size_t i = 0; i < session.captures.size(); ++i) {
     const CaptureDescription& capture = session.captures[i];
     auto read = ReadCapture(sized, capture, sources, evidence);
@@ -73,8 +75,13 @@ Result<CaptureReadings> ReadCaptures(const Session& session, const Sources& sour
     if (one.sized) {
       *std::ranges::find(sized.lights, one.sized->name, &LightDescription::name) = *one.sized;
     }
+    if (one.unsized) unsized.emplace_back(capture.light, *one.unsized);
     ShareScale(session, capture, one);
     out.readings.push_back({std::move(one.reading), capture.where});
+  }
+  for (auto& [light, error] : unsized) {
+    // Another capture may have told it.
+    if (LacksSize(*FindLight(sized, light))) refusals.push_back(std::move(error));
   }
   if (!refusals.empty()) return tl::unexpected(AsOne(std::move(refusals)));
   out.lights = std::move(sized.lights);

@@ -31,6 +31,17 @@ Xyz ColorOfFace(const MergedBracket& merged, const SourceLuminance& source, cons
   return XyzFromLinearRgb({sum.r / count, sum.g / count, sum.b / count}, RgbSpace::kSrgb);
 }
 
+FaceShape ShapeOf(const LightDescription* light) {
+  const bool sides = light && (light->kind == LightKind::kRect || light->kind == LightKind::kTube);
+  return sides ? FaceShape::kRectangular : FaceShape::kRound;
+}
+
+std::string WhyUnresolved(const SourceLuminance& source) {
+  return "the lamp is " + RoundedText(source.pixels_across, 2) +
+         " pixels across in its picture, the lens's blur in it, which is too few to tell its size "
+         "and luminance from the blur; ";
+}
+
 // Takes what was measured where nothing was said.
 void Settle(double measured_m, const char* what, const CaptureDescription& capture,
             std::optional<Metres>& stated, Warnings& warnings) {
@@ -52,27 +63,60 @@ LightDescription Sized(const SourceLuminance& source, const CaptureDescription& 
   const double d = capture.distance->value();
   const double radius = std::sqrt(source.area / std::numbers::pi);  // at distance 1
   const double longer = std::max(source.width, source.height) * d;
+  const auto settle = [&](double measured_m, const char* what, std::optional<Metres>& stated) {
+    if (!stated) light.face_sd = source.area_sd_relative;
+    Settle(measured_m, what, capture, stated, warnings);
+  };
   switch (light.kind) {
     case LightKind::kDisk:
-      Settle(2.0 * radius * d, "diameter", capture, light.diameter, warnings);
+      settle(2.0 * radius * d, "diameter", light.diameter);
       return light;
     case LightKind::kSphere: {
       // The distance counts from its surface: R = (d + R) sin a.
       const double sine = std::sin(std::atan(radius));
-      Settle(2.0 * d * sine / (1.0 - sine), "diameter", capture, light.diameter, warnings);
+      settle(2.0 * d * sine / (1.0 - sine), "diameter", light.diameter);
       return light;
     }
     case LightKind::kRect:
-      Settle(source.width * d, "width", capture, light.width, warnings);
-      Settle(source.height * d, "height", capture, light.height, warnings);
+      settle(source.width * d, "width", light.width);
+      settle(source.height * d, "height", light.height);
       return light;
     case LightKind::kTube:
-      Settle(longer, "length", capture, light.length, warnings);
-      Settle(0.5 * std::min(source.width, source.height) * d, "radius", capture, light.radius,
-             warnings);
+      settle(longer, "length", light.length);
+      settle(0.5 * std::min(source.width, source.height) * d, "radius", light.radius);
       return light;
     default:
       return light;
+  }
+}
+
+// The same by a picture that may not resolve it: of a tube its length, where that alone is seen.
+void AddSize(const SourceLuminance& source, const CaptureDescription& capture,
+             const LightDescription& light, Warnings& warnings, CaptureReading& out) {
+  constexpr double kLongTube = 16.0;  // pixels
+  if (source.resolved) {
+    out.sized = Sized(source, capture, light, warnings);
+    return;
+  }
+  if (light.kind == LightKind::kTube && source.pixels_long >= kLongTube) {
+    out.sized = light;
+    Settle(std::max(source.width, source.height) * capture.distance->value(), "length", capture,
+           out.sized->length, warnings);
+    return;
+  }
+  if (LacksSize(light)) {
+    const Error error =
+        Refused("source_unresolved", capture.frames,
+                WhyUnresolved(source) +
+                    "state its size, or photograph it from nearer or by a longer lens so that it "
+                    "is ten pixels across")
+            .value();
+    out.unsized = AtCapture(capture, error).value();
+  } else if (light.kind == LightKind::kSphere && !light.diameter) {
+    warnings.push_back({"source_unresolved", capture.where,
+                        WhyUnresolved(source) +
+                            "its intensity holds; for its luminance state its diameter_m, or "
+                            "photograph it from nearer"});
   }
 }
 
@@ -99,7 +143,7 @@ Radians FieldOfViewLeft(const CaptureDescription& capture, Projection projection
 }
 
 Result<SourceLuminance> MeasureIn(const MergedBracket& merged, const CaptureDescription& capture,
-                                  const FrameInfo& info, const Region& region) {
+                                  const FrameInfo& info, const Region& region, FaceShape shape) {
   const Projection projection = capture.projection.value_or(Projection::kRectilinear);
   const Thinning thinning = ThinningOf(info, capture.work);
   const auto angles = PixelSolidAngles::Create(
@@ -109,7 +153,7 @@ Result<SourceLuminance> MeasureIn(const MergedBracket& merged, const CaptureDesc
   if (!angles) return tl::unexpected(angles.error());
   const std::vector<float> nits = LuminanceOf(merged, 1.0);
   return MeasureSource({nits.data(), merged.width, merged.height},
-                       {merged.sigma.data(), merged.width, merged.height}, *angles, region);
+                       {merged.sigma.data(), merged.width, merged.height}, *angles, region, shape);
 }
 
 }  // namespace
@@ -129,7 +173,8 @@ Result<CaptureReading> ReadSource(const Session& session, const CaptureDescripti
     // A clipped lamp is refused or named; what else is clipped here does not count.
     if (warning.code != "clipped") evidence.warnings.push_back(warning);
   }
-  const auto source = MeasureIn(merged, capture, info, region);
+  const LightDescription* const light = FindLight(session, capture.light);
+  const auto source = MeasureIn(merged, capture, info, region, ShapeOf(light));
   const bool anchored = capture.anchor_illuminance.has_value();
   if (!source && anchored && source.error().code == "source_clipped") {
     evidence.warnings.push_back(
@@ -155,10 +200,14 @@ Result<CaptureReading> ReadSource(const Session& session, const CaptureDescripti
        .patch_unit = source->luminance.value(),
        .off_middle_rad = std::acos(std::clamp(source->direction[1], -1.0, 1.0)),
        .of_luminance = true});
-  if (const LightDescription* const light = FindLight(session, capture.light)) {
-    out.sized = Sized(*source, capture, *light, evidence.warnings);
-  }
+  if (light) AddSize(*source, capture, *light, evidence.warnings, out);
   return out;
+}
+
+bool LacksSize(const LightDescription& light) {
+  return (light.kind == LightKind::kRect && !(light.width && light.height)) ||
+         (light.kind == LightKind::kDisk && !light.diameter) ||
+         (light.kind == LightKind::kTube && !light.length);
 }
 
 }  // namespace lightcal

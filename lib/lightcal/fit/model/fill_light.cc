@@ -107,6 +107,7 @@ void AddDerivedQuantities(const LightDescription& light, FittedLight& out) {
                            light.kind == LightKind::kRect || light.kind == LightKind::kTube;
   if (has_surface && photometry->luminance) {
     out.luminance_nits = ScaledTo(intensity, photometry->luminance->value());
+    WidenInLn(*out.luminance_nits, 1.0, light.face_sd);
   }
 }
 

@@ -44,6 +44,14 @@ class Parts {
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] std::size_t size() const { return parts_.size(); }
   [[nodiscard]] const Part& operator[](std::size_t i) const { return parts_[i]; }
+  // Of the pixel nearest to a direction.
+  [[nodiscard]] double SolidAngleTowards(const Vec3& direction) const {
+    const auto nearer = [&](const Part& a, const Part& b) {
+      return (a.seen ? Dot(a.direction, direction) : -2.0) <
+             (b.seen ? Dot(b.direction, direction) : -2.0);
+    };
+    return std::ranges::max_element(parts_, nearer)->solid_angle;
+  }
   [[nodiscard]] bool OnRim(std::size_t i) const {
     const int x = static_cast<int>(i) % width_, y = static_cast<int>(i) / width_;
     return x == 0 || y == 0 || x == width_ - 1 || y == height_ - 1;
@@ -140,15 +148,18 @@ Vec3 MiddleOf(const Parts& parts, const std::vector<std::uint8_t>& lamp, double 
 }
 
 // How much of each pixel the face covers: one inside, and along its edge what the pixel holds of
-// the level inside, nearby; of lamps too thin to have an inside, of their brightest nearby.
+// the level inside, nearby; of lamps too thin to have an inside, or if asked, of their brightest
+// nearby.
 class Coverage {
  public:
-  Coverage(const Parts& parts, const SourceLuminance& source)
+  Coverage(const Parts& parts, const SourceLuminance& source, bool by_brightest)
       : parts_(parts), face_(source.face), background_(source.background.value()) {
     inside_.assign(face_.size(), 0);
     near_.assign(face_.size(), 0);
     for (std::size_t i = 0; i < face_.size(); ++i) {
-      inside_[i] = CountAround(i, kEdge, face_) == (2 * kEdge + 1) * (2 * kEdge + 1) ? 1 : 0;
+      if (!by_brightest) {
+        inside_[i] = CountAround(i, kEdge, face_) == (2 * kEdge + 1) * (2 * kEdge + 1) ? 1 : 0;
+      }
       near_[i] = CountAround(i, kEdge, face_) > 0 ? 1 : 0;
     }
   }
@@ -193,13 +204,18 @@ class Coverage {
   std::vector<std::uint8_t> inside_, near_;
 };
 
-// Area and sides on the plane at distance 1 facing the camera: dA = dOmega / cos^3.
-void MeasureFace(const Parts& parts, SourceLuminance& out) {
+// The face on the plane at distance 1 facing the camera: dA = dOmega / cos^3.
+struct FaceMoments {
+  double area = 0.0, solid_angle = 0.0, flux = 0.0;
+  double longer = 0.0, shorter = 0.0;  // variances along its axes
+  bool longer_is_right = true;         // the longer side lies nearer to right than to up
+};
+
+FaceMoments MomentsOf(const Parts& parts, const SourceLuminance& out, const Coverage& coverage) {
   const Vec3 middle = out.direction;
   const Vec3 side = Cross(middle, std::abs(middle[2]) < 0.9 ? Vec3{0, 0, 1} : Vec3{1, 0, 0});
   const Vec3 right = side * (1.0 / Length(side)), up = Cross(right, middle);
   double area = 0.0, flux = 0.0, solid = 0.0, u1 = 0.0, v1 = 0.0, uu = 0.0, vv = 0.0, uv = 0.0;
-  const Coverage coverage(parts, out);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const double covered = coverage.At(i);
     if (!parts[i].seen || covered <= 0.0) continue;
@@ -219,14 +235,77 @@ void MeasureFace(const Parts& parts, SourceLuminance& out) {
   const double su = uu / area - u1 * u1 / area / area, sv = vv / area - v1 * v1 / area / area;
   const double mixed = uv / area - u1 * v1 / area / area;
   const double half = std::hypot((su - sv) / 2.0, mixed), mean = (su + sv) / 2.0;
-  // The longer side lies along whichever of right and up it is nearer to.
-  const double longer = std::sqrt(mean + half), shorter = std::sqrt(std::max(1e-30, mean - half));
-  const double ratio = su >= sv ? longer / shorter : shorter / longer;
-  out.area = area;
-  out.width = std::sqrt(area * ratio);
-  out.height = std::sqrt(area / ratio);
-  out.solid_angle = Steradians(solid);
-  out.luminance = Nits(flux / solid);
+  return {area, solid, flux, mean + half, std::max(1e-30, mean - half), su >= sv};
+}
+
+// How much higher the brightest place is than the brightest pixel: between the pixels, by the
+// parabola through the logarithms of three in each direction, which is a Gaussian's.
+double PeakOverPixel(const Parts& parts, double background) {
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].seen && (!parts[at].seen || parts[i].nits > parts[at].nits)) at = i;
+  }
+  if (parts.OnRim(at)) return 1.0;
+  const auto ln = [&](std::size_t i) {
+    return std::log(std::max(parts[i].nits - background, 1e-3 * parts[at].nits));
+  };
+  double ln_gain = 0.0;
+  for (const std::size_t step : {std::size_t{1}, static_cast<std::size_t>(parts.width())}) {
+    const double slope = ln(at + step) - ln(at - step);
+    const double bend = ln(at + step) + ln(at - step) - 2.0 * ln(at);
+    if (bend < 0.0) ln_gain -= slope * slope / (8.0 * bend);
+  }
+  return std::exp(ln_gain);
+}
+
+// How sure the sharp face is, relative: by the picture's blur, which is no Gaussian alone, and the
+// wall behind, either of which makes the area seen a little another.
+double SdOfSharp(const BlurredFace& seen, FaceShape shape, const SharpFace& sharp) {
+  constexpr double kSeenSd = 0.03;
+  const auto moved = [&](double by) {
+    BlurredFace other = seen;
+    other.area *= by;
+    const auto face = Sharpened(other, shape);
+    return face ? face->area : 0.0;
+  };
+  return 0.5 * std::abs(moved(1.0 + kSeenSd) - moved(1.0 - kSeenSd)) / sharp.area;
+}
+
+void MeasureFace(const Parts& parts, FaceShape shape, SourceLuminance& out) {
+  constexpr double kSmallFace = 8.0;   // pixels across: below it the blur reaches the middle
+  constexpr double kLargestSd = 0.12;  // of the area, relative: beyond, it is not resolved
+  constexpr double kEdgeSd = 0.03;     // pixels, of where each side's edges lie
+  constexpr double kShareSd = 0.3;     // of what the blur took, for its shape and the mosaic
+  FaceMoments face = MomentsOf(parts, out, Coverage(parts, out, false));
+  // A pixel of the face's middle, on the plane at distance 1.
+  const double pixel = std::sqrt(parts.SolidAngleTowards(out.direction));
+  double share = 1.0, blur_sd = 0.0, ratio = std::sqrt(face.longer / face.shorter);
+  out.pixels_across = std::sqrt(face.area / ratio) / pixel;
+  out.pixels_long = std::sqrt(face.area * ratio) / pixel;
+  if (out.pixels_across < kSmallFace) {
+    face = MomentsOf(parts, out, Coverage(parts, out, true));
+    const double gain = PeakOverPixel(parts, out.background.value());
+    face.area /= gain;
+    face.solid_angle /= gain;
+    const BlurredFace seen{face.area, face.longer, face.shorter};
+    const auto sharp = Sharpened(seen, shape);
+    const double sd =
+        sharp ? std::hypot(SdOfSharp(seen, shape, *sharp), kShareSd * (1.0 - sharp->share)) : 1.0;
+    out.resolved = sd < kLargestSd;
+    if (out.resolved) {
+      share = sharp->share;
+      ratio = sharp->longer / sharp->shorter;
+      blur_sd = sd;
+    }
+  }
+  out.area = share * face.area;
+  const double longer = std::sqrt(out.area * ratio), shorter = std::sqrt(out.area / ratio);
+  out.width = face.longer_is_right ? longer : shorter;
+  out.height = face.longer_is_right ? shorter : longer;
+  out.solid_angle = Steradians(share * face.solid_angle);
+  out.luminance = Nits(face.flux / out.solid_angle.value());
+  const double edges = 2.0 * kEdgeSd * pixel * (1.0 / longer + 1.0 / shorter);
+  out.area_sd_relative = std::hypot(edges, blur_sd);
 }
 
 std::string PlaceText(const Region& region) {
@@ -237,7 +316,8 @@ std::string PlaceText(const Region& region) {
 }  // namespace
 
 Result<SourceLuminance> MeasureSource(View2d<const float> nits, View2d<const float> sigma,
-                                      const PixelSolidAngles& angles, const Region& region) {
+                                      const PixelSolidAngles& angles, const Region& region,
+                                      FaceShape shape) {
   if (auto ok = CheckRegion(region, nits.width(), nits.height()); !ok) {
     return Propagate(std::move(ok));
   }
@@ -285,7 +365,7 @@ Result<SourceLuminance> MeasureSource(View2d<const float> nits, View2d<const flo
   }
   out.illuminance = Lux(lux);
   out.noise_sd_relative = std::sqrt(variance) / lux;
-  MeasureFace(parts, out);
+  MeasureFace(parts, shape, out);
   return out;
 }
 
