@@ -12,9 +12,9 @@
 #include <string>
 #include <utility>
 
-#include "lightcal/core/numbers_text.h"
 #include "lightcal/core/parallel.h"
 #include "lightcal/core/statistics.h"
+#include "lightcal/imaging/bracket/compare_labels.h"
 #include "lightcal/imaging/bracket/encoded_errors.h"
 #include "lightcal/imaging/bracket/label_choices.h"
 #include "lightcal/imaging/bracket/noise.h"
@@ -32,8 +32,6 @@ constexpr double kBendShare = 1e-3;     // departure that counts as a bend
 constexpr double kBendSigmas = 4.0;
 constexpr double kHighestLinear = 0.9;
 constexpr int kPasses = 3;
-constexpr double kWarnEv = 0.25;
-constexpr double kRefuseEv = 1.0;
 
 struct PairRatio {
   std::size_t a = 0, b = 0;
@@ -250,77 +248,19 @@ void AddLabelPairs(std::span<const std::size_t> order, std::span<const double> l
   }
 }
 
-std::string EvText(double ln) {
-  const double ev = ln / std::numbers::ln2;
-  return (ev > 0.0 ? "+" : "") + RoundedText(ev, 2) + " EV";
-}
-
-Result<void> CompareWithLabels(std::span<const double> label, std::span<const std::string> names,
-                               ExposureRatios& answer) {
-  std::vector<double> off;
-  std::vector<double> joined;
-  for (std::size_t i = 0; i < label.size(); ++i) {
-    off.push_back(answer.ln_exposure[i] - std::log(label[i]));
-    if (answer.measured[i]) joined.push_back(off.back());
+// For each frame the first of those that measurements join it to: itself, where none does.
+std::vector<std::size_t> FirstJoined(std::size_t frames, std::span<const PairRatio> pairs) {
+  std::vector<std::size_t> first(frames);
+  std::iota(first.begin(), first.end(), std::size_t{0});
+  for (const PairRatio& pair : pairs) {
+    const std::size_t from = std::max(first[pair.a], first[pair.b]);
+    const std::size_t to = std::min(first[pair.a], first[pair.b]);
+    std::ranges::replace(first, from, to);
   }
-  const std::vector<double>& trusted = joined.empty() ? off : joined;
-  std::vector<double> ranked = trusted;
-  const double median = UpperMedian(ranked);
-  double sum = 0.0, count = 0.0;
-  for (const double o : trusted) {
-    if (std::abs(o - median) > kWarnEv * std::numbers::ln2) continue;
-    sum += o;
-    count += 1.0;
-  }
-  const double gauge = sum / count;
-  for (std::size_t i = 0; i < label.size(); ++i) {
-    answer.ln_exposure[i] -= gauge;
-    if (auto named = NameOddLabel(off[i] - gauge, names[i], answer.warnings); !named) return named;
-  }
-  return {};
-}
-
-// As CompareWithLabels, where a curve stands between codes and light.
-Result<void> WeighCurve(std::span<const double> label, std::span<const std::string> names,
-                        const CurvePower& curve, ExposureRatios& answer) {
-  std::vector<double> ln_label;
-  for (const double l : label) ln_label.push_back(std::log(l));
-  const WeighedLabels weighed = WeighLabels(ln_label, answer.ln_exposure, answer.measured, curve);
-  for (std::size_t i = 0; i < label.size(); ++i) {
-    answer.ln_exposure[i] = ln_label[i] + weighed.off[i];
-    if (!weighed.certain) continue;
-    auto named = NameOddLabel(weighed.off[i], names[i], answer.warnings);
-    if (!named) return named;
-  }
-  answer.gauge_sd = weighed.gauge_sd;
-  answer.power_sd = weighed.power_sd;
-  if (weighed.certain) return {};
-  answer.warnings.push_back(
-      {"labels_disagree", names.front(),
-       "under the stated response the frames were not exposed as their tags or {merge.exposures} "
-       "say, and which exposure is wrong, or whether the response is another camera's, they do not "
-       "tell: sigma holds each of these; take three frames and more, or check the exposures"});
-  return {};
+  return first;
 }
 
 }  // namespace
-
-Result<void> NameOddLabel(double off, const std::string& name, Warnings& warnings) {
-  const double ev = std::abs(off) / std::numbers::ln2;
-  if (ev > kRefuseEv) {
-    return Refused(
-        "exposures_disagree", name,
-        "its picture was exposed " + EvText(off) +
-            " from what its tags or {merge.exposures} say, beside the other frames; give "
-            "the exposures in the order of the files, or leave this frame out");
-  }
-  if (ev > kWarnEv) {
-    warnings.push_back({"exposure_off", name,
-                        "its picture was exposed " + EvText(off) +
-                            " from what its tags say; the measured exposure is used"});
-  }
-  return {};
-}
 
 Result<ExposureRatios> MeasureExposureRatios(const SampledSignals& signals,
                                              std::span<const double> label,
@@ -339,10 +279,11 @@ Result<ExposureRatios> MeasureExposureRatios(const SampledSignals& signals,
   if (!curve) answer.linear_to = LinearTo(pairs);
   SumUp(pairs, answer.linear_to, curve ? std::numbers::sqrt2 * kLeastStatedMisfit : kModelSd);
   for (const PairRatio& pair : pairs) answer.measured[pair.a] = answer.measured[pair.b] = true;
+  const std::vector<std::size_t> first = FirstJoined(n, pairs);
   AddLabelPairs(order, label, pairs);
   SolveNetwork(pairs, answer);
-  auto compared =
-      curve ? WeighCurve(label, names, *curve, answer) : CompareWithLabels(label, names, answer);
+  auto compared = curve ? WeighCurve(label, names, *curve, answer)
+                        : CompareWithLabels(label, names, first, answer);
   if (!compared) {
     return Propagate(std::move(compared));
   }

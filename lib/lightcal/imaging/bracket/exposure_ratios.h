@@ -19,14 +19,17 @@ inline constexpr double kLabelSd = 0.04;
 
 struct ExposureRatios {
   // ln of each frame's exposure; their mean difference to the labels is 0 over the frames that are
-  // joined by measurements, so that no single frame's error becomes the scale.
+  // joined by measurements and agree with most of these within .25 EV, so that no single frame's
+  // error becomes the scale. Where no more than half agree it is 0 in the middle of all, and
+  // gauge_sd as far as either end.
   std::vector<double> ln_exposure;
   std::vector<double> sd_ln;   // of the difference to the first joined frame, from the residuals
   std::vector<bool> measured;  // false: nothing seen by this frame and another; the label stands
   // Share of the clip up to which frames agree: below 0.9 where the sensor bends earlier.
   double linear_to = 0.9;
-  double gauge_sd = 0.0, power_sd = 0.0;  // as WeighLabels has them; 0 without a curve
-  Warnings warnings;                      // ratio_from_label, exposure_off, labels_disagree
+  double gauge_sd = 0.0;  // of what is common to all, ln
+  double power_sd = 0.0;  // as WeighLabels has it; 0 without a curve
+  Warnings warnings;      // ratio_from_label, exposure_off, labels_disagree
 };
 
 // One number a frame, from all pairs with a common range. A pair's ratio is sum b / sum a over
@@ -37,14 +40,10 @@ struct ExposureRatios {
 //   accuracy: 0.05 % on 1e5 shared samples with labels wrong by up to 2 EV
 // `curve`: through which codes were read. It is wrong by kLeastStatedMisfit, so that labels are
 // weighed beside what is measured through it (label_choices.h).
-// Refused: exposures_disagree (measured and label differ by more than 1 EV: frames shuffled, or
+// Refused: exposures_disagree (measured and label differ by more than 1.2 EV: frames shuffled, or
 // exposures typed in another order than the files).
 [[nodiscard]] Result<ExposureRatios> MeasureExposureRatios(
     const SampledSignals& signals, std::span<const double> label,
     std::span<const std::string> names, const std::optional<CurvePower>& curve = {});
-
-// Of a measured exposure, whose ln is off by `off` from its label's. Refused: exposures_disagree,
-// by more than 1 EV. Warns: exposure_off, by more than .25 EV.
-[[nodiscard]] Result<void> NameOddLabel(double off, const std::string& name, Warnings& warnings);
 
 }  // namespace lightcal

@@ -8,7 +8,7 @@
 
 #include "lightcal/core/parallel.h"
 #include "lightcal/imaging/bracket/align_prepared.h"
-#include "lightcal/imaging/bracket/exposure_ratios.h"
+#include "lightcal/imaging/bracket/compare_labels.h"
 #include "lightcal/imaging/bracket/merge_bracket.h"
 #include "lightcal/imaging/bracket/release_rows.h"
 #include "lightcal/imaging/bracket/thin_frame.h"
