@@ -88,7 +88,14 @@ Result<Bracket> OpenCapture(const Session& session, const CaptureDescription& ca
   return bracket;
 }
 
-Error AtPlace(Error error, const Bracket& bracket) {
+Error AtPlace(Error error, const Bracket& bracket, const Warnings& of_merge) {
+  const auto shifted = std::ranges::find(of_merge, "misaligned", &Warning::code);
+  if (shifted != of_merge.end()) {
+    error.message = shifted->subject + ": " + shifted->message +
+                    ". A session aligns no frames: take the bracket again from a tripod, or leave "
+                    "the shifted frames out. With the frames as they are: " +
+                    error.message;
+  }
   const auto turned = std::ranges::find(bracket.warnings, "turned_frames", &Warning::code);
   if (turned != bracket.warnings.end()) error.message += "; " + turned->message;
   return error;

@@ -66,8 +66,9 @@ struct PictureFindings {
 [[nodiscard]] Result<Bracket> OpenCapture(const Session& session, const CaptureDescription& capture,
                                           const Sources& sources);
 
-// What is wrong with a place in the picture; whether a viewer turns the frames may be why.
-[[nodiscard]] Error AtPlace(Error error, const Bracket& bracket);
+// What is wrong with a place in the picture, and what may be why: frames that are shifted against
+// each other (`of_merge`, told first), or that a viewer turns.
+[[nodiscard]] Error AtPlace(Error error, const Bracket& bracket, const Warnings& of_merge);
 
 // Those frames merged with sigma, in colour where there is any, by capture.camera where it is
 // given. Fails and refused: merged_picture (one in cd/m^2 that says no exposure), and as

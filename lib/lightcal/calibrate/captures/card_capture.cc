@@ -132,7 +132,7 @@ Result<CaptureReading> ReadCard(const Session& session, const CaptureDescription
   if (!picture) return tl::unexpected(picture.error());
   evidence.AddWarnings(picture->merged.warnings);
   const auto patch = MeasureCard(picture->merged, card);
-  if (!patch) return tl::unexpected(AtPlace(patch.error(), *bracket));
+  if (!patch) return tl::unexpected(AtPlace(patch.error(), *bracket, picture->merged.warnings));
   const auto lamp = LuminanceOfLamp(session, capture, *picture, patch->color, sources);
   if (!lamp) return tl::unexpected(lamp.error());
   AddCapture(session, capture, picture->merged, evidence);

@@ -186,7 +186,7 @@ Result<CaptureReading> ReadSource(const Session& session, const CaptureDescripti
     return ReadingOfPicture(session, capture, *picture, {},
                             {.illuminance = *capture.anchor_illuminance, .of_luminance = true});
   }
-  if (!source) return tl::unexpected(AtPlace(source.error(), *bracket));
+  if (!source) return tl::unexpected(AtPlace(source.error(), *bracket, merged.warnings));
   const Xyz seen = ColorOfFace(merged, *source, region);
   const auto lamp = LuminanceOfLamp(session, capture, *picture, seen, sources);
   if (!lamp) return tl::unexpected(lamp.error());
