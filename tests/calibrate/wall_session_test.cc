@@ -70,10 +70,12 @@ class WallSession : public testing::Test {
     EXPECT_EQ(result.exit_code, 3) << result.out << result.err;
     EXPECT_FALSE(fs::exists(folder_.path() + "/light.json"));
     const json answer = json::parse(result.out, nullptr, false);
+    if (answer.contains("error")) subject_ = answer["error"]["subject"];
     return answer.contains("error") ? std::string(answer["error"]["code"]) : result.out;
   }
 
   TempDir folder_;
+  std::string subject_;  // of the last refusal
 };
 
 TEST_F(WallSession, WhatCannotBeMeasuredIsRefusedByName) {
@@ -82,6 +84,8 @@ TEST_F(WallSession, WhatCannotBeMeasuredIsRefusedByName) {
   EXPECT_EQ(RefusalOf("\"photometric\"", "\"spot\""), "wall_needs_photometric");
   EXPECT_EQ(RefusalOf("square_m = 0.03 ", "dictionary = \"6x6_250\"\nsquare_m = 0.03 "),
             "board_not_found");
+  EXPECT_NE(subject_.find("ChArUco board in "), std::string::npos) << subject_;
+  EXPECT_NE(subject_.find(".exr"), std::string::npos) << subject_;
   EXPECT_EQ(RefusalOf("aim = [0, 1, 0]", "aim = [1, 0, 0]"), "axis_not_covered");
 }
 

@@ -61,6 +61,12 @@ Result<std::vector<std::vector<BoardCorner>>> FurtherViews(const Session& sessio
   return views;
 }
 
+// What is wrong with the board, and in which file's picture.
+tl::unexpected<Error> InPictureOf(const std::string& file, Error error) {
+  error.subject += " in " + file;
+  return tl::unexpected(std::move(error));
+}
+
 // Places in a picture made smaller as places in the whole one.
 void Enlarge(const Thinning& thinning, std::vector<BoardCorner>& corners) {
   for (BoardCorner& corner : corners) {
@@ -96,7 +102,9 @@ Result<PosedWall> ReadPosedWall(const Session& session, const CaptureDescription
   const auto grey = PoseGrey(session, capture, *picture, sources, evidence);
   if (!grey) return tl::unexpected(grey.error());
   auto corners = sources.find_board(grey->view(), capture.wall->board);
-  if (!corners) return Propagate(std::move(corners));
+  const std::string& pose_file =
+      capture.wall->board_frame.empty() ? capture.frames : capture.wall->board_frame;
+  if (!corners) return InPictureOf(pose_file, corners.error());
   // In the camera's own pixels, as those of further views.
   if (capture.wall->board_frame.empty()) Enlarge(picture->thinning, *corners);
   const auto further = FurtherViews(session, capture, *picture, sources, evidence);
@@ -108,7 +116,10 @@ Result<PosedWall> ReadPosedWall(const Session& session, const CaptureDescription
     focal_px = *grey->focal_length / *capture.wall->sensor_width * picture->whole_width;
   }
   auto camera = SolveCamera(views, picture->whole_width, picture->whole_height, focal_px);
-  if (!camera) return Propagate(std::move(camera));
+  if (!camera) {
+    const std::string& views_of = capture.wall->board_views;
+    return InPictureOf(pose_file + (views_of.empty() ? "" : ", " + views_of), camera.error());
+  }
   const SolvedCamera thinned = CameraOfSmaller(*camera, picture->thinning);
   return PosedWall{*std::move(picture), thinned};
 }
