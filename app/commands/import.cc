@@ -2,7 +2,10 @@
 // lightcal import: what instruments export, into a session's journal.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
+#include <filesystem>
 #include <memory>
+#include <string_view>
 
 #include "commands.h"
 #include "distribution_plan.h"
@@ -16,6 +19,7 @@
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal/records/session_reader.h"
+#include "lightcal_devices/captures/raw.h"
 
 namespace lightcal::app {
 namespace {
@@ -155,7 +159,31 @@ Result<void> TellFixtures(const ImportOptions& options, Console& console) {
   return {};
 }
 
+// Pictures are no readings: a session names them, and its fit reads them.
+Result<void> CheckNoPictures(const ImportOptions& options) {
+  constexpr std::array kRendered = {".exr", ".hdr",  ".pic",  ".jpg",  ".jpeg", ".png",
+                                    ".tif", ".tiff", ".heic", ".webp", ".avif", ".dpx"};
+  for (const std::string& path : options.files) {
+    const std::string name = LowerAscii(path);
+    const bool rendered = std::ranges::any_of(
+        kRendered, [&](std::string_view extension) { return name.ends_with(extension); });
+    if (!rendered && !devices::LooksLikeRaw(path)) continue;
+    const std::filesystem::path file(path);
+    const std::string light = options.settings.light.empty() ? "key" : options.settings.light;
+    return Refused(
+        "picture_file", path,
+        "is a picture and no meter's file. Put the frames beside session.toml and name them there, "
+        "for instance of a grey card:\n  [[capture]]\n  light = \"" +
+            light + "\"\n  frames = \"captures/*" + file.extension().string() +
+            "\"\n  use = \"card\"          # or source (the lamp itself), wall, ball, dome\n"
+            "  reflectance = 0.18\n  distance_m = 1.0\n`lightcal fit` then reads them; `lightcal "
+            "merge` makes one picture in cd/m2 of a bracket, `lightcal dome` lamps of a panorama");
+  }
+  return {};
+}
+
 Result<void> RunImport(const ImportOptions& options, Console& console) {
+  if (auto readable = CheckNoPictures(options); !readable) return readable;
   if (std::ranges::any_of(options.files, IsGdtfName)) return TellFixtures(options, console);
   if (options.session.empty()) {
     return WrongUsage("--session", "is required: the session directory or .toml file to add to");

@@ -375,6 +375,22 @@ TEST_F(Import, AnIlluminanceThatHeaderAndSpectrumDisputeIsRefusedByBothDoors) {
   EXPECT_EQ(json::parse(unread.out)["error"]["code"], "illuminance_ambiguous");
 }
 
+TEST_F(Import, APictureIsSaidToBelongIntoACapture) {
+  for (const char* name : {"IMG_1.CR2", "a.dng", "b.jpeg", "c.exr", "d.hdr", "e.TIF"}) {
+    const std::string picture = temp_.Write(name, std::string(4000, '\xff'));
+    for (const std::vector<std::string>& more : {{"--light", "key"}, std::vector<std::string>()}) {
+      std::vector<std::string> words = {picture, "--json"};
+      words.insert(words.end(), more.begin(), more.end());
+      const CliResult result = Run(words);
+      EXPECT_EQ(result.exit_code, 3) << name;
+      const json error = json::parse(result.out)["error"];
+      EXPECT_EQ(error["code"], "picture_file");
+      EXPECT_THAT(error["message"].get<std::string>(), HasSubstr("[[capture]]"));
+      EXPECT_THAT(error["message"].get<std::string>(), HasSubstr("light = \"key\""));
+    }
+  }
+}
+
 TEST_F(Import, MissingFileFails) {
   const CliResult result = Run({temp_.path() + "/none.csv", "--light", "key", "--json"});
   EXPECT_EQ(result.exit_code, 1);
