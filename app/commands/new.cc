@@ -94,7 +94,9 @@ Result<void> RunNew(const NewOptions& options, Console& console) {
   }
   console.Print("\nSwitch the lamp on and let it warm up for ten minutes. Then\n  " +
                 ReadLine(*session) + "\nsays where to put the meter, and after it\n  " +
-                RunLine(*session) + "\nwrites the presets and the report.\n");
+                RunLine(*session) +
+                "\nwrites the presets and the report. A camera's bracket is added in session.toml, "
+                "under [[capture]].\n");
   console.PrintDocument(DocumentOf(*session));
   return {};
 }

@@ -109,6 +109,18 @@ std::string BoxColorText(const NewSession& session) {
          TomlLine("cct_K", ShortestText(session.cct->value()), "") + "\n";
 }
 
+std::string CaptureText(const LightDescription& light) {
+  return "# A camera's bracket of a grey card beside or instead of a meter; use = \"source\" is of "
+         "the lamp\n# itself (fov_deg = 40), \"wall\" of its light on a wall, \"dome\" a "
+         "panorama.\n"
+         "# [[capture]]\n" +
+         TomlLine("# light", TomlText(light.name), "") +
+         TomlLine("# frames", "\"captures/*.dng\"", "RAW is best; JPEG with response = \"srgb\"") +
+         TomlLine("# use", "\"card\"", "") +
+         TomlLine("# reflectance", "0.18", "of the card, which faces the lamp") +
+         TomlLine("# distance_m", "1.0", "from the lamp to the card") + "\n";
+}
+
 }  // namespace
 
 std::string ReadLine(const NewSession& session) {
@@ -134,7 +146,7 @@ Result<std::string> SessionText(const NewSession& session) {
       ReadLine(session) + "\n# Then the fit, the presets and the report, all in out/:\n#   " +
       RunLine(session) + "\nlightcal = 1\n\n";
   text += RoomText(session.room, session.surroundings) + LightText(session.light) +
-          MeterText(session) + BoxColorText(session);
+          MeterText(session) + BoxColorText(session) + CaptureText(session.light);
   text.pop_back();
   if (auto read_back = ParseSessionToml(text, "session.toml"); !read_back) {
     return Propagate(std::move(read_back));

@@ -41,6 +41,27 @@ TEST_P(NewOfKind, WritesASessionThatThePlanAndAReadingTake) {
   const CliResult fitted = RunLightcal({"fit", session});
   EXPECT_EQ(fitted.exit_code, 0) << fitted.err << text;
 }
+// The example under its comment marks is a capture as the session reads it.
+TEST(New, ACamerasBracketHasItsExample) {
+  const NoUsb machine;
+  const TempDir home;
+  const std::string session = home.path() + "/s";
+  const CliResult begun = RunLightcal({"new", session, "--kind", "point", "--yes"});
+  ASSERT_EQ(begun.exit_code, 0) << begun.err;
+  EXPECT_THAT(begun.out, HasSubstr("[[capture]]"));
+  std::string text = ReadFile(session + "/session.toml");
+  const auto from = text.find("# [[capture]]");
+  ASSERT_NE(from, std::string::npos) << text;
+  for (auto at = from; at != std::string::npos && at < text.size();) {
+    if (text.compare(at, 2, "# ") == 0) text.erase(at, 2);
+    at = text.find('\n', at);
+    if (at != std::string::npos) ++at;
+  }
+  home.Write("s/session.toml", text);
+  const CliResult fitted = RunLightcal({"fit", session, "--json"});
+  EXPECT_EQ(json::parse(fitted.out)["error"]["code"], "not_found") << fitted.out << text;
+}
+
 TEST(New, ARoomWithoutWallsIsWrittenAsOne) {
   const NoUsb machine;
   for (const std::string none : {"dark", "outdoors"}) {
