@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/light/axial_shape.h"
 #include "lightcal/photometry/inverse_square.h"
 #include "lightcal/photometry/lambert.h"
 #include "lightcal/presets/table_cone.h"
@@ -93,6 +94,24 @@ void FromDistribution(const FittedLight& lamp, PunctualLight& light, Warnings& w
       " of the axial intensity, flux " + PerCent(std::abs(flux)) + (flux < 0.0 ? " low" : " high");
 }
 
+// ", 21 % at 1 m, where it was read": what a point of a tube's intensity gives too much at the
+// nearest reading; "" where it is little.
+std::string TooMuchWhereRead(const FittedLight& lamp) {
+  constexpr double kLeastTold = 0.02;
+  if (!lamp.length_m) return "";
+  const AxialShape shape{AxialShape::Outline::kTube, 0.5 * *lamp.length_m};
+  std::optional<double> nearest;
+  for (const ResidualRow& row : lamp.residuals) {
+    if (row.used && row.distance_m && *row.distance_m > 0.0) {
+      nearest = std::min(nearest.value_or(*row.distance_m), *row.distance_m);
+    }
+  }
+  if (!nearest) return "";
+  const double too_much = 1.0 / AxialShapeFactor(shape, *nearest) - 1.0;
+  if (!(too_much > kLeastTold)) return "";
+  return ", " + PerCent(too_much) + " at " + RoundedText(*nearest, 3) + " m, where it was read";
+}
+
 void ChooseType(const FittedLight& lamp, PunctualLight& light, Warnings& warnings) {
   switch (lamp.kind) {
     case LightKind::kPoint:
@@ -115,9 +134,8 @@ void ChooseType(const FittedLight& lamp, PunctualLight& light, Warnings& warning
       break;
     case LightKind::kTube:
       light.substitution =
-          "a tube exported as a point: right broadside and beyond 5 lengths, too bright towards "
-          "its "
-          "ends, flux 27 % high";
+          "a tube exported as a point: right broadside from 5 lengths on alone, too bright nearer" +
+          TooMuchWhereRead(lamp) + ", and towards its ends; flux 27 % high";
       break;
     case LightKind::kDisk:
     case LightKind::kRect:
