@@ -159,6 +159,31 @@ def a_dimmer_that_is_no_cubic_never_falls_and_is_named():
     assert len(rough) == 1 and "of full" in rough[0]["message"], done["warnings"]
 
 
+def at_nothing_a_dimmer_is_dark():
+    """Whatever law the readings follow above it; unless a reading at 0 says that light is left."""
+    laws = {"gamma": lambda x: x**1.3, "root": lambda x: x**0.7, "raised": lambda x: 0.03 + 0.97 * x}
+    for name, law in laws.items():
+        for at_0 in (False, True):
+            text = ('lightcal = 1\n[room]\ndark = true\n[[light]]\nname = "a"\nkind = "point"\n'
+                    '[[meter]]\nname = "m"\nsigma_relative = 0.02\n')
+            for dimmer in (100, 75, 50, 25, 10) + ((0,) if at_0 and name == "raised" else ()):
+                text += (f'[[reading]]\nlight = "a"\nmeter = "m"\nstate = {{ dimmer = {dimmer} }}\n'
+                         f"distance_m = 2\nilluminance_lx = {5000 * law(dimmer / 100):.8g}\n")
+            folder = HOME / f"{name}{at_0}"
+            folder.mkdir()
+            (folder / "session.toml").write_text(text, encoding="utf-8")
+            answer("fit", folder, "-o", folder / "a.json")
+            done = answer("export", folder / "a.json", "--to", "gdtf", "-o", folder / "out")
+            with zipfile.ZipFile(HOME / done["files"][0]) as archive:
+                point = ElementTree.fromstring(archive.read("description.xml")).find(".//Point")
+            c = [float(point.get(f"CFC{k}")) for k in range(4)]
+            left = 0.03 if at_0 and name == "raised" else 0
+            off = max(abs(sum(c[k] * x**k for k in range(4)) - law(x / 100)) for x in (100, 75, 50, 25, 10))
+            print(f"{name}: {100 * c[0]:.2f} % of full at 0, elsewhere off by {100 * off:.2f} %")
+            assert abs(c[0] - left) < (0.003 if left else 1e-9), (name, c)
+            assert off < 0.03, (name, off)
+
+
 def it_is_valid_by_the_official_schema():
     xmllint = shutil.which("xmllint")
     assert xmllint, "xmllint is missing: libxml2-utils, tests/packages.txt"
@@ -269,6 +294,7 @@ def forty_damaged_archives_are_refused_in_bounded_memory():
 if __name__ == "__main__":
     TESTS = [the_archive_holds_what_was_measured, it_is_valid_by_the_official_schema,
              a_dimmer_that_is_no_cubic_never_falls_and_is_named,
+             at_nothing_a_dimmer_is_dark,
              it_comes_back_as_it_went, a_fixture_of_others,
              forty_damaged_archives_are_refused_in_bounded_memory]
     for test in TESTS:

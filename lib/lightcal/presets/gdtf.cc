@@ -79,9 +79,10 @@ std::vector<DimmerPoint> DimmerPoints(const FittedLight& lamp) {
 // that are nowhere negative and never fall: Bernstein coefficients that begin at 0 or above and do
 // not fall (Farouki, "The Bernstein polynomial basis: a centennial retrospective", Computer Aided
 // Geometric Design 29 (2012)). The brightest point, which is full, counts as a thousand; of few
-// points a lower degree.
+// points a lower degree. At 0 it is dark, unless a lamp was measured there.
 std::array<double, 4> RisingCubicNear(const std::vector<DimmerPoint>& points) {
-  const std::size_t degree = std::min<std::size_t>(3, points.size() - 1);
+  const bool dark_at_0 = points.front().percent > 0.0;
+  const std::size_t degree = std::min<std::size_t>(3, points.size() - (dark_at_0 ? 0 : 1));
   constexpr std::array<std::array<double, 4>, 4> kBinomial = {
       {{1.0, 0.0, 0.0, 0.0}, {1.0, 1.0, 0.0, 0.0}, {1.0, 2.0, 1.0, 0.0}, {1.0, 3.0, 3.0, 1.0}}};
   // By its steps from one coefficient to the next: step j raises all from j on.
@@ -103,7 +104,7 @@ std::array<double, 4> RisingCubicNear(const std::vector<DimmerPoint>& points) {
   }
   std::array<double, 4> steps{};
   for (int round = 0; round < 20000; ++round) {  // one after the other; of four it soon stands
-    for (std::size_t i = 0; i <= degree; ++i) {
+    for (std::size_t i = dark_at_0 ? 1 : 0; i <= degree; ++i) {
       double pull = product[i];
       for (std::size_t j = 0; j <= degree; ++j) pull -= gram[i][j] * steps[j];
       if (gram[i][i] > 0.0) steps[i] = std::max(0.0, steps[i] + pull / gram[i][i]);
