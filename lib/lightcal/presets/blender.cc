@@ -101,7 +101,7 @@ double BlendOf(const EngineCone& fit) {
 
 // What a light with an IES node is told by itself is that node's multiplier, whatever the lamp: a
 // person who types takes Blender's own light of that intensity. Before 4.0 an area light of P watts
-// has P/4 on its axis, not P/pi.
+// has P/4 on its axis, not P/pi, and a spot is dimmed by a cosine within its cone.
 void PutPlainPower(const PresetLight& light, DerivedLight& out) {
   if (light.form == LightForm::kRect || light.form == LightForm::kDisk) {
     out.elsewhere.push_back({"area_power_before_4_0_W", {4.0 / std::numbers::pi * WattsOf(light)}});
@@ -115,6 +115,9 @@ void PutPlainPower(const PresetLight& light, DerivedLight& out) {
   if (spot && light.beam) {
     out.elsewhere.push_back({"spot_size_rad", {2.0 * light.cone.cone.outer.value()}});
     out.elsewhere.push_back({"spot_blend", {BlendOf(light.cone)}});
+    const EngineCone before = RefitCone(EngineConeLaw::kSmoothTimesCosine, *light.beam);
+    out.elsewhere.push_back({"spot_size_before_4_0_rad", {2.0 * before.cone.outer.value()}});
+    out.elsewhere.push_back({"spot_blend_before_4_0", {BlendOf(before)}});
   }
   out.elsewhere.push_back({"ies_strength_W", {WattsOf(light)}});
 }

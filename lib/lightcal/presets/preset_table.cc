@@ -39,6 +39,8 @@ constexpr TypedNote kBlenderNotes[] = {
     kLinearColor,
     Cone("spot_size_rad", "Spot Size ", "°", kDegrees),
     Cone("spot_blend", "Blend ", ""),
+    Cone("spot_size_before_4_0_rad", "before 4.0 Spot Size ", "°", kDegrees),
+    Cone("spot_blend_before_4_0", "Blend ", ""),
     {"area_power_before_4_0_W", "before Blender 4.0 ", " W", true, TypedPart::kEarlierVersions},
     {"ies_strength_W", "the exported file has an IES node, of Power ", " W"}};
 
