@@ -10,19 +10,21 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "lightcal/core/parallel.h"
 #include "lightcal/core/statistics.h"
+#include "lightcal/imaging/bracket/changed_parts.h"
 #include "lightcal/imaging/bracket/compare_labels.h"
 #include "lightcal/imaging/bracket/encoded_errors.h"
 #include "lightcal/imaging/bracket/label_choices.h"
 #include "lightcal/imaging/bracket/noise.h"
+#include "lightcal/imaging/bracket/rough_ratio.h"
 
 namespace lightcal {
 namespace {
 
-constexpr double kLeastSharedSamples = 64.0;
 constexpr double kWorstPairSd = 0.02;   // of a pair's ln ratio; wider is no measurement
 constexpr double kModelSd = 2e-4;       // what no residual shows: black levels, slow bends
 constexpr double kLabelRatioSd = 0.06;  // of a label's ln ratio: third-stop rounding, 3 % shutter
@@ -36,26 +38,10 @@ constexpr int kPasses = 3;
 struct PairRatio {
   std::size_t a = 0, b = 0;
   double ln_ratio = 0.0, sd = 0.0;
+  double apart = 0.0;  // PairParts
   bool clip_known = true;
   PairSums sums{};
 };
-
-// Where most numbers lie: the middle of the shortest interval that holds a quarter of them. Half of
-// a picture that moved does not reach it, as it does the median.
-float Densest(std::vector<float>& values) {
-  constexpr std::size_t kEnough = 20'000;
-  const std::size_t step = values.size() / kEnough + 1;
-  std::vector<float> some;
-  for (std::size_t i = 0; i < values.size(); i += step) some.push_back(values[i]);
-  std::ranges::sort(some);
-  const std::size_t quarter = some.size() / 4;
-  std::size_t best = 0;
-  for (std::size_t i = 0; i + quarter < some.size(); ++i) {
-    // As a ratio: what is rare is spread over all of them.
-    if (some[i + quarter] * some[best] < some[best + quarter] * some[i]) best = i;
-  }
-  return some[best + quarter / 2];
-}
 
 // Noise grows with the level, and less than in proportion. A level whose residuals break that law,
 // beside levels that keep it, shows edges that moved: its gate is that of the others.
@@ -83,22 +69,6 @@ std::array<double, kLevelBins> WithinNoise(std::array<double, kLevelBins> gates)
     take(bin, absolute);
   }
   return lawful;
-}
-
-// A first ratio that needs no label: what most of b/a is where both stand clear of noise and clip.
-std::optional<double> RoughRatio(std::span<const float> a, std::span<const float> b,
-                                 std::span<const float> clip) {
-  for (const float floor : {0.03F, 0.01F, 0.003F, 0.001F}) {
-    std::vector<float> ratios;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      const bool clear = a[i] > floor * clip[i] && b[i] > floor * clip[i] &&
-                         a[i] < 0.9F * clip[i] && b[i] < 0.9F * clip[i];
-      if (clear) ratios.push_back(b[i] / a[i]);
-    }
-    if (static_cast<double>(ratios.size()) < kLeastSharedSamples) continue;
-    return Densest(ratios);
-  }
-  return std::nullopt;
 }
 
 // sum b / sum a and its standard deviation over the levels between the two.
@@ -130,17 +100,40 @@ std::optional<LevelSums> TellingLevels(const PairSums& sums, double to) {
   return std::nullopt;
 }
 
-std::optional<PairRatio> MeasurePair(const SampledSignals& signals, std::size_t a, std::size_t b) {
-  const auto& first = signals.frames[a];
-  const auto& second = signals.frames[b];
+// What two frames show of the regions.
+struct PairSamples {
+  std::vector<float> a, b, clip;
+};
+
+PairSamples SamplesOf(std::span<const float> a, std::span<const float> b,
+                      std::span<const float> clip, const SampledSignals& signals,
+                      const std::vector<bool>& regions) {
+  PairSamples samples;
+  for (std::size_t i = 0; i < clip.size(); ++i) {
+    if (!regions[RegionOf(signals, i)]) continue;
+    samples.a.push_back(a[i]);
+    samples.b.push_back(b[i]);
+    samples.clip.push_back(clip[i]);
+  }
+  return samples;
+}
+
+std::optional<PairRatio> MeasurePair(const SampledSignals& signals, const PairParts& parts) {
+  const std::size_t a = parts.a, b = parts.b;
   const PairClips clips = ClipsOfPair(signals, a, b);
-  const auto rough = RoughRatio(first, second, clips.clip);
+  std::span<const float> first = signals.frames[a], second = signals.frames[b], clip = clips.clip;
+  PairSamples still;
+  if (parts.parts.size() > 1) {
+    still = SamplesOf(first, second, clip, signals, parts.parts[parts.stayed].regions);
+    first = still.a, second = still.b, clip = still.clip;
+  }
+  const auto rough = RoughRatio(first, second, clip);
   if (!rough) return std::nullopt;
-  PairRatio pair{.a = a, .b = b, .clip_known = clips.known};
+  PairRatio pair{.a = a, .b = b, .apart = parts.apart, .clip_known = clips.known};
   PairSetting setting{.ratio = *rough, .noise = kMiddlingNoise};
-  setting.gate = WithinNoise(FirstGates(first, second, clips.clip, setting, kLeastSharedSamples));
+  setting.gate = WithinNoise(FirstGates(first, second, clip, setting, kLeastSharedSamples));
   for (int pass = 0; pass < kPasses; ++pass) {
-    pair.sums = ComparePair(first, second, clips.clip, setting);
+    pair.sums = ComparePair(first, second, clip, setting);
     const auto total = TellingLevels(pair.sums, kBelievedTo);
     if (!total) return std::nullopt;
     setting.ratio = total->b / total->a;
@@ -171,19 +164,30 @@ double LinearTo(std::span<const PairRatio> pairs) {
   return kHighestLinear;
 }
 
-// Every pair of neighbours and of next neighbours in exposure that tells something.
+// Every pair of neighbours and of next neighbours in exposure that tells something. A curve's error
+// makes ratios differ by level, as light that changed does: no parts are looked for then.
 std::vector<PairRatio> MeasurePairs(const SampledSignals& signals,
-                                    std::span<const std::size_t> order) {
+                                    std::span<const std::size_t> order,
+                                    std::span<const double> label, bool look_for_parts) {
   std::vector<std::pair<std::size_t, std::size_t>> candidates;
   for (std::size_t i = 0; i < order.size(); ++i) {
     for (std::size_t j = i + 1; j < std::min(i + 3, order.size()); ++j) {
       candidates.emplace_back(order[i], order[j]);
     }
   }
+  std::vector<PairParts> parts(candidates.size());
+  ParallelFor(static_cast<int>(candidates.size()), [&](int i) {
+    PairParts& pair = parts[static_cast<std::size_t>(i)];
+    std::tie(pair.a, pair.b) = candidates[static_cast<std::size_t>(i)];
+    pair.ln_label = std::log(label[pair.b] / label[pair.a]);
+    pair.neighbours = std::ranges::find(order, pair.a) + 1 == std::ranges::find(order, pair.b);
+    if (look_for_parts) FindParts(signals, pair);
+  });
+  ChooseStill(parts);
   std::vector<std::optional<PairRatio>> measured(candidates.size());
   ParallelFor(static_cast<int>(candidates.size()), [&](int i) {
-    const auto [a, b] = candidates[static_cast<std::size_t>(i)];
-    measured[static_cast<std::size_t>(i)] = MeasurePair(signals, a, b);
+    measured[static_cast<std::size_t>(i)] =
+        MeasurePair(signals, parts[static_cast<std::size_t>(i)]);
   });
   std::vector<PairRatio> pairs;
   for (const auto& pair : measured) {
@@ -199,8 +203,33 @@ void SumUp(std::span<PairRatio> pairs, double linear_to, double model_sd) {
     const auto total = TellingLevels(pair.sums, to);
     const LevelSums sum = total ? *total : SumLevels(pair.sums, 0.002, kBelievedTo);
     pair.ln_ratio = std::log(sum.b / sum.a);
-    pair.sd = std::hypot(std::sqrt(sum.d2) / sum.b, model_sd);
+    pair.sd = std::hypot(std::hypot(std::sqrt(sum.d2) / sum.b, model_sd), 0.5 * pair.apart);
   }
+}
+
+// Exposures that another part of the picture shows as likely: of the frames in their order, how far
+// these are from the ones chosen, and which two frames most.
+void WeighParts(std::span<const PairRatio> pairs, std::span<const std::size_t> order,
+                std::span<const std::string> names, ExposureRatios& answer) {
+  const PairRatio* most = nullptr;
+  double off = 0.0, least = 0.0, largest = 0.0;
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    for (const PairRatio& pair : pairs) {
+      if (pair.a != order[i - 1] || pair.b != order[i] || pair.apart == 0.0) continue;
+      off += pair.apart;
+      if (most == nullptr || std::abs(pair.apart) > std::abs(most->apart)) most = &pair;
+    }
+    least = std::min(least, off);
+    largest = std::max(largest, off);
+  }
+  if (most == nullptr) return;
+  answer.part_sd = 0.5 * (largest - least);
+  answer.warnings.push_back(
+      {"light_changed", names[most->b],
+       "beside " + names[most->a] + ", the light of a part of the picture changed by " +
+           PercentText(std::expm1(std::abs(most->apart))) +
+           ", and neither sizes nor exposures tell which part it was: sigma holds either. Take the "
+           "frames while the light stays"});
 }
 
 // min sum ((e_b - e_a - ln_ratio)/sd)^2 with e of the first frame 0.
@@ -275,11 +304,12 @@ Result<ExposureRatios> MeasureExposureRatios(const SampledSignals& signals,
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t i, std::size_t j) { return label[i] < label[j]; });
-  std::vector<PairRatio> pairs = MeasurePairs(signals, order);
+  std::vector<PairRatio> pairs = MeasurePairs(signals, order, label, !curve);
   if (!curve) answer.linear_to = LinearTo(pairs);
   SumUp(pairs, answer.linear_to, curve ? std::numbers::sqrt2 * kLeastStatedMisfit : kModelSd);
   for (const PairRatio& pair : pairs) answer.measured[pair.a] = answer.measured[pair.b] = true;
   const std::vector<std::size_t> first = FirstJoined(n, pairs);
+  WeighParts(pairs, order, names, answer);
   AddLabelPairs(order, label, pairs);
   SolveNetwork(pairs, answer);
   auto compared = curve ? WeighCurve(label, names, *curve, answer)

@@ -27,9 +27,12 @@ struct ExposureRatios {
   std::vector<bool> measured;  // false: nothing seen by this frame and another; the label stands
   // Share of the clip up to which frames agree: below 0.9 where the sensor bends earlier.
   double linear_to = 0.9;
+  // Half of what the ln ratios of two parts of the picture are apart, of which nobody knows whose
+  // light stayed.
+  double part_sd = 0.0;
   double gauge_sd = 0.0;  // of what is common to all, ln
   double power_sd = 0.0;  // as WeighLabels has it; 0 without a curve
-  Warnings warnings;      // ratio_from_label, exposure_off, labels_disagree
+  Warnings warnings;      // ratio_from_label, exposure_off, labels_disagree, light_changed
 };
 
 // One number a frame, from all pairs with a common range. A pair's ratio is sum b / sum a over

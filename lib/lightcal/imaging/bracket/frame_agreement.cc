@@ -10,6 +10,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/parallel.h"
+#include "lightcal/core/statistics.h"
 #include "lightcal/imaging/bracket/frame_blocks.h"
 #include "lightcal/imaging/bracket/moved_shape.h"
 
@@ -63,10 +64,12 @@ std::optional<Warning> Flicker(const Differences& d, const Blocks& blocks, const
 
 Warning SceneMoved(const Differences& d, const Blocks& blocks, const std::string& name,
                    const std::string& other) {
+  std::vector<float> by;
   int left = blocks.width, top = blocks.height, right = 0, bottom = 0;
   for (int y = 0; y < blocks.height; ++y) {
     for (int x = 0; x < blocks.width; ++x) {
       if (!d.disagrees[blocks.At(x, y)]) continue;
+      by.push_back(*d.relative[blocks.At(x, y)]);
       left = std::min(left, x);
       right = std::max(right, x + 1);
       top = std::min(top, y);
@@ -76,8 +79,9 @@ Warning SceneMoved(const Differences& d, const Blocks& blocks, const std::string
   const auto pixels = [&](int block_count) { return std::to_string(block_count * blocks.size); };
   return {"moved_content", name,
           RoundedText(100.0 * d.disagreeing / d.comparable, 2) + " % of the picture differs from " +
-              other + ", within x,y,w,h = " + pixels(left) + "," + pixels(top) + "," +
-              pixels(right - left) + "," + pixels(bottom - top) +
+              other + ", by " + RoundedText(100.0 * UpperMedian(by), 2) +
+              " % in the middle of them, within x,y,w,h = " + pixels(left) + "," + pixels(top) +
+              "," + pixels(right - left) + "," + pixels(bottom - top) +
               ": something moved or changed its brightness; sigma is wide there"};
 }
 

@@ -26,6 +26,7 @@ struct MergePlan {
   double usable = 0.9;  // share of the clip up to which a sensor is believed
   double floor = 0.0;   // signal below which codes say nothing (encoded frames clip at black)
   double fixed_pattern = kMiddlingFixedPattern;  // p: pixels differ in sensitivity by p (1 sigma)
+  double part_sd = 0.0;  // of a part of the picture, beside the rest: ExposureRatios
   MergeEstimator estimator = MergeEstimator::kLikelihood;
   std::shared_ptr<const EncodedErrors> encoded{};  // of frames whose codes came through a curve
 };

@@ -263,10 +263,7 @@ void EncodedVariances(const float* variances, int channels, const std::array<dou
 class Mapper {
  public:
   Mapper(const BracketMerger& merger, const PictureRows& rows)
-      : frame_(merger.frames()[0]),
-        encoded_(merger.plan().encoded.get()),
-        rows_(rows),
-        mosaic_(IsMosaic(frame_)) {
+      : frame_(merger.frames()[0]), plan_(merger.plan()), rows_(rows), mosaic_(IsMosaic(frame_)) {
     if (!mosaic_) return;
     for (const auto& row : rows.picture) picture_.push_back(KernelOf(frame_, row));
     luminance_ = KernelOf(frame_, rows.luminance);
@@ -278,9 +275,9 @@ class Mapper {
   }
   void Sigma(const Strip& strip, int y, int first, std::span<float> out) const {
     const std::vector<std::uint8_t> bounds = BoundsOf(strip, y, first, out.size());
-    if (encoded_ == nullptr || mosaic_) {
+    if (plan_.encoded == nullptr || mosaic_) {
       Luminance(strip, y, first, true, out);
-      if (!bounds.empty()) WidenBounds(bounds, strip, y, first, out);
+      if (!bounds.empty() || plan_.part_sd > 0.0) Widen(bounds, strip, y, first, out);
     } else {
       std::array<std::vector<float>, 3> luminance;
       for (int i = 0; i < 3; ++i) {
@@ -288,7 +285,7 @@ class Mapper {
         line.resize(out.size());
         Luminance(strip, y + i - 1, first, false, line);
       }
-      EncodedVariances(strip.variance(y, first), frame_.channels, rows_.luminance, *encoded_,
+      EncodedVariances(strip.variance(y, first), frame_.channels, rows_.luminance, *plan_.encoded,
                        luminance, bounds, out);
     }
     kernels::SquareRoots(out.data(), out.size(), out.data());
@@ -322,20 +319,23 @@ class Mapper {
     }
     return bounds;
   }
-  // What the channels of a clipped pixel lack they lack together, and nobody knows how much.
-  void WidenBounds(std::span<const std::uint8_t> bounds, const Strip& strip, int y, int first,
-                   std::span<float> variance) const {
+  // What the channels of a clipped pixel lack, or a wrong exposure adds, is alike in all of them.
+  void Widen(std::span<const std::uint8_t> bounds, const Strip& strip, int y, int first,
+             std::span<float> variance) const {
+    const auto part2 = static_cast<float>(plan_.part_sd * plan_.part_sd);
     std::vector<float> luminance(variance.size());
     Luminance(strip, y, first, false, luminance);
-    for (std::size_t x = 0; x < bounds.size(); ++x) {
-      if (bounds[x] != 0) variance[x] = std::max(variance[x], luminance[x] * luminance[x]);
+    for (std::size_t x = 0; x < variance.size(); ++x) {
+      const float square = luminance[x] * luminance[x];
+      const float least = bounds.empty() || bounds[x] == 0 ? 0.0F : square;
+      variance[x] = std::max(variance[x], least) + part2 * square;
     }
   }
   [[nodiscard]] std::size_t Phase(int y) const {
     return static_cast<std::size_t>(y % frame_.row_period);
   }
   const SignalFrame& frame_;
-  const EncodedErrors* encoded_;
+  const MergePlan& plan_;
   const PictureRows& rows_;
   bool mosaic_;
   std::vector<Kernel> picture_;

@@ -339,6 +339,7 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
       std::hypot(kLabelSd / std::sqrt(static_cast<double>(std::max<std::ptrdiff_t>(joined, 1))),
                  ratios->gauge_sd);
   planned.plan.usable = ratios->linear_to;
+  planned.plan.part_sd = ratios->part_sd;
   planned.plan.fixed_pattern /= request.samples_averaged;
   for (const auto& frame : signals.frames) {
     planned.usable_share.push_back(1.0 - ShareAbove(frame, signals.clip, planned.plan.usable));

@@ -92,6 +92,7 @@ SampledSignals SampleRows(std::span<const SignalFrame> frames, std::size_t sampl
   if (frames.empty()) return sampled;
   const std::vector<int> rows = SpreadRows(frames[0], samples);
   const std::size_t row_samples = frames[0].row_samples();
+  sampled.row_samples = row_samples;
   for (std::size_t k = 0; k < frames.size(); ++k) {
     auto& signals = sampled.frames.emplace_back(rows.size() * row_samples);
     for (std::size_t i = 0; i < rows.size(); ++i) {

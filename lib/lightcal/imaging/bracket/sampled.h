@@ -18,6 +18,7 @@ inline constexpr float kClippedFrom = 0.98F;
 struct SampledSignals {
   std::vector<std::vector<float>> frames;  // the same samples of every frame
   std::vector<float> clip;                 // of each sample
+  std::size_t row_samples = 0;             // of the whole rows that they are; 0: places unknown
 };
 
 // The clips that levels of two frames are shares of: those of the samples, and where no clip is
