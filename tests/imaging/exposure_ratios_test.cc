@@ -67,6 +67,28 @@ TEST(ExposureRatios, AreUnbiasedOverManyShuttersWithTheirClaimedPrecision) {
   EXPECT_LT(z2 / count, 1.8);
 }
 
+// Codes that the black level is off by are no sensor that bends; nor do they hide one that does.
+TEST(ExposureRatios, ABlackLevelThatIsOffIsNoBend) {
+  const StepWedge wedge{test::LogSteps(1.0, 2e4, 24), 6, 300, 200};
+  for (const double off_dn : {0.0, 1.0, 2.0, 3.0, -1.0, -3.0}) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      SyntheticCamera camera = Camera();
+      camera.knee_relative = 0.0;
+      camera.black_error_dn = {off_dn, off_dn, off_dn};
+      const auto series = test::ExposureSeries(1.0 / 1024, 5, 2.0, 8.0, 0.03, seed);
+      const auto straight =
+          Measure(test::ShootBracket(camera, series, wedge.Scene()), Labels(series));
+      ASSERT_TRUE(straight.has_value()) << straight.error().message;
+      EXPECT_EQ(straight->linear_to, 0.9) << off_dn << " DN, seed " << seed;
+      camera.knee_relative = 0.05;
+      const auto bent = Measure(test::ShootBracket(camera, series, wedge.Scene()), Labels(series));
+      ASSERT_TRUE(bent.has_value()) << bent.error().message;
+      EXPECT_LT(bent->linear_to, 0.9) << off_dn << " DN, seed " << seed;
+      EXPECT_GT(bent->linear_to, 0.75) << off_dn << " DN, seed " << seed;
+    }
+  }
+}
+
 // Half of the picture clips in all frames but the first.
 TEST(ExposureRatios, DoNotMindClipping) {
   const auto series = test::ExposureSeries(1.0 / 1024, 4, 2.0, 8.0, 0.03, 11);

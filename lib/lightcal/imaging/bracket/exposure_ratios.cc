@@ -32,6 +32,7 @@ constexpr double kBelievedTo = 0.8;     // of the clip, when ratios are summed
 constexpr double kStraightTo = 0.5;     // every sensor is linear up to here
 constexpr double kBendShare = 1e-3;     // departure that counts as a bend
 constexpr double kBendSigmas = 4.0;
+constexpr double kBlackSd = 2e-4;  // of a black level, of full scale: 3 codes of 14 bits
 constexpr double kHighestLinear = 0.9;
 constexpr int kPasses = 3;
 
@@ -142,22 +143,61 @@ std::optional<PairRatio> MeasurePair(const SampledSignals& signals, const PairPa
   return pair;
 }
 
-// The level from which longer frames fall behind what shorter ones predict, over all pairs. Where
-// nobody knows the clip there is no level.
+// A level beside the ratio R = sum b / sum a of the straight levels: what b is more than R a, and
+// by how much more for a black level that is off by 1 (of full scale) in both frames, the camera's
+// own:
+//   (1 - R) (n - N sum a / sum A), n samples of the level and N, A of the straight ones
+struct LevelBehind {
+  double behind = 0.0, by_black = 0.0, of = 0.0, variance = 0.0;
+};
+LevelBehind BehindAt(const LevelSums& sum, const LevelSums& straight) {
+  const double ratio = straight.b / straight.a;
+  return {sum.b - ratio * sum.a, (1.0 - ratio) * (sum.count - straight.count * sum.a / straight.a),
+          sum.b, sum.d2};
+}
+
+LevelBehind OverPairs(std::span<const PairRatio> pairs, std::size_t bin) {
+  LevelBehind all;
+  for (const PairRatio& pair : pairs) {
+    if (!pair.clip_known) continue;
+    const auto straight = TellingLevels(pair.sums, kStraightTo);
+    if (!straight || pair.sums[bin].count < kLeastSharedSamples) continue;
+    const LevelBehind one = BehindAt(pair.sums[bin], *straight);
+    all.behind += one.behind;
+    all.by_black += one.by_black;
+    all.of += one.of;
+    all.variance += one.variance;
+  }
+  return all;
+}
+
+struct BlackOff {
+  double off = 0.0, variance = 0.0;
+};
+// Of all pairs together, by the levels up to which every sensor is straight.
+BlackOff BlackOffOf(std::span<const PairRatio> pairs) {
+  double weight = 1.0 / (kBlackSd * kBlackSd), sum = 0.0;
+  for (int bin = 0; bin < kLevelBins && BinLowerLevel(bin + 1) <= kStraightTo; ++bin) {
+    const LevelBehind level = OverPairs(pairs, static_cast<std::size_t>(bin));
+    const double model = kModelSd * level.of;
+    const double variance = level.variance + model * model;
+    if (!(variance > 0.0)) continue;
+    sum += level.by_black * level.behind / variance;
+    weight += level.by_black * level.by_black / variance;
+  }
+  return {sum / weight, 1.0 / weight};
+}
+
+// The level from which longer frames fall behind what shorter ones predict, over all pairs and
+// beside what their black level does. Where nobody knows the clip there is no level.
 double LinearTo(std::span<const PairRatio> pairs) {
+  const BlackOff black = BlackOffOf(pairs);
   for (int bin = 0; bin < kLevelBins; ++bin) {
     if (BinLowerLevel(bin) < kStraightTo || BinLowerLevel(bin + 1) > kHighestLinear) continue;
-    double behind = 0.0, of = 0.0, variance = 0.0;
-    for (const PairRatio& pair : pairs) {
-      if (!pair.clip_known) continue;
-      const auto straight = TellingLevels(pair.sums, kStraightTo);
-      const LevelSums& sum = pair.sums[static_cast<std::size_t>(bin)];
-      if (!straight || sum.count < kLeastSharedSamples) continue;
-      behind += sum.b - straight->b / straight->a * sum.a;
-      of += sum.b;
-      variance += sum.d2;
-    }
-    if (std::abs(behind) > std::max(kBendShare * of, kBendSigmas * std::sqrt(variance))) {
+    const LevelBehind level = OverPairs(pairs, static_cast<std::size_t>(bin));
+    const double behind = level.behind - black.off * level.by_black;
+    const double variance = level.variance + black.variance * level.by_black * level.by_black;
+    if (std::abs(behind) > std::max(kBendShare * level.of, kBendSigmas * std::sqrt(variance))) {
       return BinLowerLevel(bin);
     }
   }
