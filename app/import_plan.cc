@@ -10,7 +10,6 @@
 #include "input_files.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/records/session_codec.h"
-#include "lightcal_devices/files/import_file.h"
 #include "session_names.h"
 #include "spectrum_csv.h"
 
@@ -95,8 +94,7 @@ class Planner {
 
   Result<void> Add(const std::string& path) {
     NoteInput(path);
-    auto imported = settings_.columns.empty() ? devices::ImportFile(path)
-                                              : devices::ImportFile(path, settings_.columns);
+    auto imported = devices::ImportFile(path, settings_.table);
     if (!imported) return Propagate(std::move(imported));
     auto readings = ReadingsOf(path, *imported);
     if (!readings) return Propagate(std::move(readings));
@@ -171,8 +169,10 @@ class Planner {
     const fs::path source(path);
     const bool absolute = one.spectrum.quantity == SpectralQuantity::kIrradiance;
     const bool strip = settings_.color_only && absolute;
-    // A table whose columns were named on the line says nothing of itself to who reads it later.
-    if (imported.spectra.size() > 1 || strip || !settings_.columns.empty()) {
+    // A table of which the line says something says too little of itself to who reads it later.
+    const bool said = !settings_.table.columns.empty() ||
+                      settings_.table.decimals != devices::DecimalSign::kUnsaid;
+    if (imported.spectra.size() > 1 || strip || said) {
       const std::string part = one.name.empty() ? std::to_string(i + 1) : FileNamePart(one.name);
       const std::string name = source.stem().string() +
                                (imported.spectra.size() > 1 ? "-" + part : "") +

@@ -10,6 +10,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/records/reading.h"
 #include "lightcal/records/session.h"
+#include "lightcal_devices/files/import_file.h"
 #include "output_files.h"
 
 namespace lightcal::app {
@@ -19,10 +20,9 @@ struct ImportSettings {
   std::optional<Metres> distance;  // for readings whose file gives none
   std::string meter;               // for readings whose file names none
   FixtureState state;              // for readings whose file says nothing of the lamp's controls
-  std::vector<std::string>
-      columns;              // what a table's columns are, in their order; none = its header
-  std::string column;       // one spectrum of a file, by name or number from 1; "" = all
-  bool color_only = false;  // leave the illuminance out
+  devices::TableWords table;       // what its person says of a table
+  std::string column;              // one spectrum of a file, by name or number from 1; "" = all
+  bool color_only = false;         // leave the illuminance out
   bool lamp_off = false;
   bool shadow_card = false;
   bool again = false;  // also what the session holds already

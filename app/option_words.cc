@@ -37,6 +37,7 @@ constexpr auto kFields = std::to_array<FieldRow>({
     {"glare.vertical", "--glare-ev"},
     {"import.column", "--column"},
     {"import.columns", "--columns distance_m,illuminance_lx"},
+    {"import.decimals", "--decimals"},
     {"light.aim", "aim"},
     {"light.axis", "axis"},
     {"light.beam", "beam_deg"},

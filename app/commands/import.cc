@@ -20,17 +20,21 @@
 #include "lightcal/records/session_codec.h"
 #include "lightcal/records/session_reader.h"
 #include "lightcal_devices/captures/raw.h"
+#include "one_of.h"
 
 namespace lightcal::app {
 namespace {
 
 constexpr std::size_t kShownReadings = 20;  // rows of the table; --json lists them all
 
+constexpr std::array<std::string_view, 2> kDecimalWords = {"point", "comma"};
+
 struct ImportOptions {
   std::vector<std::string> files;
   std::string session;
   std::string distance;
   std::string state;
+  std::string decimals;
   ImportSettings settings;
 };
 
@@ -112,6 +116,11 @@ Result<void> AppendAll(const ImportPlan& plan, const std::string& journal) {
 
 Result<ImportSettings> SettingsOf(const ImportOptions& options) {
   ImportSettings settings = options.settings;
+  if (!options.decimals.empty()) {
+    settings.table.decimals = options.decimals == kDecimalWords.front()
+                                  ? devices::DecimalSign::kPoint
+                                  : devices::DecimalSign::kComma;
+  }
   if (!options.state.empty()) {
     auto state = ParseFixtureState(options.state);
     if (!state) return Propagate(std::move(state));
@@ -241,10 +250,14 @@ Run BuildImport(CLI::App& parser) {
                     "What the fixture's controls said, unless the file says it: "
                     "dimmer=50,cct_K=4000 (any names)");
   parser
-      .add_option("--columns", settings.columns,
+      .add_option("--columns", settings.table.columns,
                   "What a table's columns are, in their order, whatever its header says: "
                   "distance_m,illuminance_lx; - leaves one out; blanks may part them (.dat, .prn)")
       ->delimiter(',');
+  parser
+      .add_option("--decimals", options->decimals,
+                  "What parts decimals in a table whose numbers leave it open (8,120)")
+      ->check(OneOf(kDecimalWords));
   parser.add_option("--column", settings.column, "One spectrum of several: its name or number");
   parser.add_flag("--color-only", settings.color_only,
                   "Take the colour and leave the illuminance, which needs a distance");

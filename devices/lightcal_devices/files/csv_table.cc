@@ -8,6 +8,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal_devices/files/table_notation.h"
 
 namespace lightcal::devices::files {
 namespace {
@@ -27,12 +28,6 @@ std::string_view HeaderLine(std::string_view text) {
     text.remove_prefix(std::min(line.size() + 1, text.size()));
   }
   return {};
-}
-
-bool WritesDecimalComma(const CsvTable& table, char delimiter) {
-  return HasDecimalComma(table.rows, delimiter, [&](std::size_t column) {
-    return column < table.columns.size() && !IsWord(table.columns[column].quantity);
-  });
 }
 
 // Runs of blanks become one tab, so that columns between blanks read as any others.
@@ -135,52 +130,19 @@ Result<void> DropTitles(CsvTable& table) {
   return {};
 }
 
-// "1.200": in a file of decimal commas a thousand and two hundred.
-bool MayPartThousands(std::string_view cell) {
-  constexpr std::string_view kDigits = "0123456789";
-  const std::size_t point = cell.find('.');
-  if (point == std::string_view::npos || point == 0 || point > 3 || cell[0] == '0') return false;
-  const std::string_view after = cell.substr(point + 1);
-  return cell.substr(0, point).find_first_not_of(kDigits) == std::string_view::npos &&
-         after.size() == 3 && after.find_first_not_of(kDigits) == std::string_view::npos;
-}
-
-// Between semicolons, where numbers often have a decimal comma, whole numbers beside one such as
-// "1.200" leave open whether its point parts thousands.
-void WarnOfThousands(CsvTable& table, char delimiter) {
-  if (delimiter != ';' || table.decimal_comma) return;
-  for (std::size_t column = 0; column < table.columns.size(); ++column) {
-    const CsvQuantity quantity = table.columns[column].quantity;
-    if (quantity != CsvQuantity::kIlluminance && quantity != CsvQuantity::kDistance) continue;
-    const Row* parted = nullptr;
-    bool whole = false, decimals = false;
-    for (const Row& row : table.rows) {
-      const std::string_view cell = TrimBlanks(CellAt(row, column));
-      if (MayPartThousands(cell)) {
-        parted = &row;
-      } else if (cell.find('.') != std::string_view::npos) {
-        decimals = true;
-      } else {
-        whole = whole || NumberAt(table, row, column);
-      }
-    }
-    if (parted == nullptr || !whole || decimals) continue;
-    std::string cell(TrimBlanks(CellAt(*parted, column)));
-    std::string thousands = cell;
-    std::erase(thousands, '.');
-    const std::string read = ShortestText(NumberAt(table, *parted, column).value_or(0.0));
-    table.warnings.push_back(
-        {"decimals_ambiguous", AtLine(table.name, parted->line),
-         cell + " is read as " + read + "; if its point parts thousands, write " + thousands});
-  }
+Result<void> TellNotation(CsvTable& table, char delimiter, DecimalSign said) {
+  const auto notation = NotationOf(table, delimiter, said);
+  if (!notation) return tl::unexpected(notation.error());
+  table.notation = *notation;
+  return {};
 }
 
 // A fraction, and nothing above 1 or in percent by its own sign.
 template <class Cells>
-bool MayBePartsOfOne(Cells&& cells, bool decimal_comma) {
+bool MayBePartsOfOne(Cells&& cells, const NumberNotation& notation) {
   double most = 0.0;
   for (const std::string_view cell : cells) {
-    const auto number = ParseNumber(cell, decimal_comma);
+    const auto number = NumberIn(cell, notation);
     if (!number || *number > 1.0) return false;
     most = std::max(most, *number);
   }
@@ -208,7 +170,7 @@ Result<void> SettleByCells(CsvTable& table) {
     }
     if (column.quantity != CsvQuantity::kDimmerUnsaid) continue;
     column.quantity = CsvQuantity::kState;
-    if (MayBePartsOfOne(cells(i), table.decimal_comma)) {
+    if (MayBePartsOfOne(cells(i), table.notation)) {
       return Refused("units_ambiguous", table.name + ", column " + column.written,
                      "holds no value above 1: are they parts of 1, or percent? Write percent, and "
                      "name it state.dimmer");
@@ -245,21 +207,25 @@ std::optional<double> NumberAt(const CsvTable& table, const Row& row, std::size_
                      table.columns[column].quantity == CsvQuantity::kIlluminance &&
                      LimitSignOf(cell) != '\0';
   if (limit) cell.remove_prefix(1);
-  return ParseNumber(cell, table.decimal_comma);
+  return NumberIn(cell, table.notation);
 }
 
 tl::unexpected<Error> NotANumber(const CsvTable& table, const Row& row, std::size_t column,
                                  std::string_view code) {
-  std::string with_comma(TrimBlanks(CellAt(row, column)));
-  const bool of_points = table.decimal_comma && ParseNumber(with_comma).has_value();
-  std::ranges::replace(with_comma, '.', ',');
-  return Refused(std::string(code), AtLine(table.name, row.line),
-                 "'" + std::string(CellAt(row, column).substr(0, 40)) + "' in the column " +
-                     table.columns[column].written + " is no finite number" +
-                     (IsOverloadWord(CellAt(row, column)) ? "; " + std::string(kWriteALimit) : "") +
-                     (of_points ? "; the decimals of this file are commas: write " + with_comma +
-                                      ", or a thousand without a point"
-                                : ""));
+  const bool commas = table.notation.decimal == ',';
+  const std::string_view cell = CellAt(row, column);
+  // A number by the other sign: 400.5 among decimal commas.
+  const bool by_other = NumberIn(cell, {commas ? '.' : ',', '\0'}).has_value();
+  std::string typed(TrimBlanks(cell));
+  std::ranges::replace(typed, commas ? '.' : ',', commas ? ',' : '.');
+  return Refused(
+      std::string(code), AtLine(table.name, row.line),
+      "'" + std::string(cell.substr(0, 40)) + "' in the column " + table.columns[column].written +
+          " is no finite number" + (IsOverloadWord(cell) ? "; " + std::string(kWriteALimit) : "") +
+          (by_other
+               ? std::string("; the decimals of this file are ") + (commas ? "commas" : "points") +
+                     ": write " + typed + ", or thousands without a sign"
+               : ""));
 }
 
 bool IsTableUnderHeader(std::string_view text) {
@@ -271,7 +237,8 @@ bool IsTableUnderHeader(std::string_view text) {
   });
 }
 
-Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name) {
+Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name,
+                                  DecimalSign decimals) {
   const char delimiter = DelimiterOf(HeaderLine(text));
   auto rows = ReadRows(text, delimiter);
   if (!rows) return Propagate(std::move(rows));
@@ -294,17 +261,17 @@ Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name) 
                        std::to_string(table.columns.size()) +
                        "; numbers with a decimal comma need ';' between the columns");
   }
-  table.decimal_comma = WritesDecimalComma(table, delimiter);
+  if (auto told = TellNotation(table, delimiter, decimals); !told)
+    return Propagate(std::move(told));
   if (auto settled = SettleByCells(table); !settled) return Propagate(std::move(settled));
-  WarnOfThousands(table, delimiter);
   return table;
 }
 
 Result<CsvTable> TableOfColumns(std::string_view text, std::string_view name,
-                                const std::vector<std::string>& names) {
+                                const TableWords& words) {
   CsvTable table;
   table.name = name;
-  auto columns = ColumnsNamed(names);
+  auto columns = ColumnsNamed(words.columns);
   if (!columns) return Propagate(std::move(columns));
   table.columns = *std::move(columns);
   // What parts the cells is read off the last line, as titles above may hold any character. Blanks
@@ -322,10 +289,11 @@ Result<CsvTable> TableOfColumns(std::string_view text, std::string_view name,
   if (!rows) return Propagate(std::move(rows));
   std::erase_if(*rows, IsCommentOrEmpty);
   table.rows = *std::move(rows);
-  table.decimal_comma = WritesDecimalComma(table, delimiter);
+  if (auto told = TellNotation(table, blanks ? ' ' : delimiter, words.decimals); !told) {
+    return Propagate(std::move(told));
+  }
   if (auto dropped = DropTitles(table); !dropped) return Propagate(std::move(dropped));
   if (auto settled = SettleByCells(table); !settled) return Propagate(std::move(settled));
-  WarnOfThousands(table, delimiter);
   if (const Row* const wide = RowTooWide(table)) {
     return Refused("unknown_column", AtLine(table.name, wide->line),
                    "has " + std::to_string(wide->cells.size()) + " cells, and " +

@@ -12,6 +12,8 @@
 #include "lightcal/core/result.h"
 #include "lightcal_devices/files/csv_columns.h"
 #include "lightcal_devices/files/delimited_text.h"
+#include "lightcal_devices/files/import_file.h"
+#include "lightcal_devices/files/number_notation.h"
 
 namespace lightcal::devices::files {
 
@@ -19,8 +21,8 @@ struct CsvTable {
   std::string name;
   std::vector<CsvColumn> columns;
   std::vector<Row> rows;
-  bool decimal_comma = false;
-  Warnings warnings{};  // decimals_ambiguous, rows_skipped
+  NumberNotation notation{};
+  Warnings warnings{};  // rows_skipped
 };
 
 // Whether a column holds words, whether nothing is wanted of it.
@@ -42,14 +44,16 @@ struct CsvTable {
 [[nodiscard]] bool IsTableUnderHeader(std::string_view text);
 
 // Of the columns that come out, none is kTimestamp or kDimmerUnsaid. Refused: no_rows, bad_row
-// (more cells than columns, naming the line), units_ambiguous (a dimmer that may be parts of 1).
-[[nodiscard]] Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name);
+// (more cells than columns, naming the line), units_ambiguous (a dimmer that may be parts of 1),
+// decimals_ambiguous (table_notation.h).
+[[nodiscard]] Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name,
+                                                DecimalSign decimals);
 
 // What stands above the first row of numbers is a title; "-" leaves a column out. A title that
 // holds a number in a column of numbers is named (rows_skipped). Refused: no_rows, unknown_column
 // (a name not understood, or more cells in a row than names), bad_row (above the first row of
-// numbers, one that begins with a number and goes on with something else).
+// numbers, one that begins with a number and goes on with something else), decimals_ambiguous.
 [[nodiscard]] Result<CsvTable> TableOfColumns(std::string_view text, std::string_view name,
-                                              const std::vector<std::string>& names);
+                                              const TableWords& words);
 
 }  // namespace lightcal::devices::files

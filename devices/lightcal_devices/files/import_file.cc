@@ -37,6 +37,13 @@ constexpr std::array kFormats = {
     Format{"CSV whose column names carry units", files::IsPlainCsv, files::ReadPlainCsv},
 };
 
+// Null where none recognises the text.
+const Format* FormatOf(std::string_view text) {
+  const auto* const format = std::ranges::find_if(
+      kFormats, [&](const Format& candidate) { return candidate.recognise(text); });
+  return format == kFormats.end() ? nullptr : format;
+}
+
 // The file's text and what messages call it.
 struct NamedText {
   std::string text;
@@ -81,12 +88,23 @@ std::string FileNameOf(const std::string& path) {
 
 }  // namespace
 
-Result<ImportedFile> ImportFile(const std::string& path, const std::vector<std::string>& columns) {
+Result<ImportedFile> ImportFile(const std::string& path, const TableWords& words) {
+  if (words.columns.empty() && words.decimals == DecimalSign::kUnsaid) return ImportFile(path);
   const auto file = files::ReadFileBytes(path, files::kMaxFileBytes);
   if (auto readable = CheckReadable(file, path); !readable) return Propagate(std::move(readable));
   const auto named = TextOf(file.bytes, FileNameOf(path));
   if (!named) return tl::unexpected(named.error());
-  return files::ReadCsvOfColumns(named->text, named->name, columns);
+  if (!words.columns.empty()) {
+    return files::ReadCsvOfColumns(named->text, named->name, words);
+  }
+  if (const Format* const format = FormatOf(named->text);
+      format == nullptr || format->read != files::ReadPlainCsv) {
+    return Refused("unknown_format", named->name,
+                   "is no table under names of columns, of which alone one says what parts "
+                   "decimals; leave {import.decimals} out, or name the columns: "
+                   "{import.columns}");
+  }
+  return files::ReadCsvUnderHeader(named->text, named->name, words.decimals);
 }
 
 Result<ImportedFile> ImportFile(const std::string& path) {
@@ -102,9 +120,7 @@ Result<ImportedFile> ImportBytes(std::string_view bytes, std::string_view name) 
   const auto named = TextOf(bytes, name);
   if (!named) return tl::unexpected(named.error());
   const std::string& text = named->text;
-  const auto format = std::ranges::find_if(
-      kFormats, [&](const Format& candidate) { return candidate.recognise(text); });
-  if (format != kFormats.end()) return format->read(text, name);
+  if (const Format* const format = FormatOf(text)) return format->read(text, name);
   return Refused("unknown_format", std::string(name),
                  "its format is not recognised; of a table say what every column is: "
                  "{import.columns}. Understood are " +

@@ -178,12 +178,19 @@ Result<std::optional<Vec3>> VectorOf(const std::array<std::optional<double>, 3>&
   return Vec3{*read[0], *read[1], *read[2]};
 }
 
+// What a control said with a decimal point, as everywhere but in files of decimal commas: 12,5 %.
+std::string ControlCell(const std::string& cell, const NumberNotation& notation) {
+  const std::size_t unit = std::min(cell.find_last_of("0123456789") + 1, cell.size());
+  const auto number = NumberIn(std::string_view(cell).substr(0, unit), notation);
+  return number ? ShortestText(*number) + cell.substr(unit) : cell;
+}
+
 Result<void> TakeCell(RowReading& taken, const CsvTable& table, const Row& row, std::size_t i) {
   const CsvColumn& column = table.columns[i];
   const std::string cell(TrimBlanks(CellAt(row, i)));
   if (cell.empty() || IsLeftOut(column.quantity)) return {};
   if (column.quantity == CsvQuantity::kState) {
-    taken.reading.state.push_back(ParseControl(column.series, cell));
+    taken.reading.state.push_back(ParseControl(column.series, ControlCell(cell, table.notation)));
     return {};
   }
   if (IsWord(column.quantity)) {
@@ -380,14 +387,19 @@ Result<ImportedFile> ReadTable(const CsvTable& table) {
 bool IsPlainCsv(std::string_view text) { return IsTableUnderHeader(text); }
 
 Result<ImportedFile> ReadPlainCsv(std::string_view text, std::string_view name) {
-  const auto table = TableUnderHeader(text, name);
+  return ReadCsvUnderHeader(text, name, DecimalSign::kUnsaid);
+}
+
+Result<ImportedFile> ReadCsvUnderHeader(std::string_view text, std::string_view name,
+                                        DecimalSign decimals) {
+  const auto table = TableUnderHeader(text, name, decimals);
   if (!table) return tl::unexpected(table.error());
   return ReadTable(*table);
 }
 
 Result<ImportedFile> ReadCsvOfColumns(std::string_view text, std::string_view name,
-                                      const std::vector<std::string>& columns) {
-  const auto table = TableOfColumns(text, name, columns);
+                                      const TableWords& words) {
+  const auto table = TableOfColumns(text, name, words);
   if (!table) return tl::unexpected(table.error());
   return ReadTable(*table);
 }

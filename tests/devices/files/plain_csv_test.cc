@@ -141,7 +141,7 @@ TEST(PlainCsv, LineNumbersCountCommentsEmptyLinesAndQuotedLineEnds) {
 }
 
 Result<ImportedFile> ReadColumns(const std::string& text, const std::vector<std::string>& names) {
-  return files::ReadCsvOfColumns(text, "table.csv", names);
+  return files::ReadCsvOfColumns(text, "table.csv", {names});
 }
 
 TEST(PlainCsv, ARowOfDataWithASlipAboveTheNumbersIsNoTitle) {
@@ -152,8 +152,9 @@ TEST(PlainCsv, ARowOfDataWithASlipAboveTheNumbersIsNoTitle) {
   EXPECT_EQ(slip.error().subject, "table.csv:2");
   EXPECT_THAT(slip.error().message, HasSubstr("4O0"));
   const auto thousands = ReadColumns("d;E\n0,1;12.000\n0,5;480\n1;120\n", names);
-  ASSERT_FALSE(thousands);
-  EXPECT_THAT(thousands.error().message, HasSubstr("12.000"));
+  ASSERT_TRUE(thousands);
+  ASSERT_THAT(thousands->readings, SizeIs(3));
+  EXPECT_DOUBLE_EQ(thousands->readings[0].illuminance->value(), 12000.0);
 }
 
 TEST(PlainCsv, ATitleThatHoldsANumberIsNamedAndOneOfWordsIsNot) {
@@ -180,16 +181,34 @@ TEST(PlainCsv, ALimitIsLightBeyondTheRange) {
   }
 }
 
-TEST(PlainCsv, APointThatMayPartThousandsIsNamed) {
-  const auto codes = [](const std::string& text) {
-    std::vector<std::string> out;
-    for (const Warning& warning : Read(text).warnings) out.push_back(warning.code);
-    return out;
+TEST(PlainCsv, ASignThatMayPartThousandsIsRefusedUnlessANumberTells) {
+  for (const char* open :
+       {"distance_m;lux\n1;1.200\n2;300\n4;75\n", "distance_m;lux\n1;1,200\n2;300\n",
+        "distance_m\tlux\n1\t1.200\n2\t300\n", "distance_m,lux\n1,\"1,200\"\n2,300\n"}) {
+    const Error error = Refusal(open);
+    EXPECT_EQ(error.code, "decimals_ambiguous") << open;
+    EXPECT_EQ(error.subject, "table.csv:2");
+    EXPECT_THAT(error.message, AllOf(HasSubstr("1200"), HasSubstr("1.2 ")));
+  }
+  const auto first_lux = [](const std::string& text) {
+    const ImportedFile file = Read(text);
+    return file.readings.empty() ? 0.0 : file.readings[0].illuminance->value();
   };
-  EXPECT_THAT(codes("distance_m;lux\n1;1.200\n2;300\n4;75\n"), ElementsAre("decimals_ambiguous"));
-  EXPECT_THAT(codes("distance_m;lux\n1;1.200\n2;0.305\n4;0.075\n"), SizeIs(0));
-  EXPECT_THAT(codes("distance_m,lux\n1,1.200\n2,300\n"), SizeIs(0));
-  EXPECT_THAT(codes("distance_m;lux\n0.5;1.5\n1;2\n"), SizeIs(0));
+  EXPECT_EQ(first_lux("distance_m;lux\n1;1.200\n2;0.305\n4;0.075\n"), 1.2);
+  EXPECT_EQ(first_lux("distance_m,lux\n1,1.200\n2,300\n"), 1.2);
+  EXPECT_EQ(first_lux("distance_m;lux\n0.5;1.5\n1;2\n"), 1.5);
+  EXPECT_EQ(first_lux("distance_m;lux\n0.5;2,030\n1;508\n"), 2030.0);
+  EXPECT_EQ(first_lux("distance_m\tlux\n1\t12,030.5\n2\t3,008\n"), 12030.5);
+  EXPECT_EQ(first_lux("distance_m;lux\n1;12\xC2\xA0"
+                      "030,5\n"),
+            12030.5);
+  EXPECT_EQ(first_lux("distance_m;lux\n1;12'030.5\n"), 12030.5);
+  EXPECT_EQ(first_lux("distance_m,lux\n1,\"1.234,5\"\n2,308\n"), 1234.5);
+  EXPECT_EQ(first_lux("distance_m;lux\n1;1.234.500\n"), 1234500.0);
+  // A kilometre is no distance to a lamp, and a few kelvin no light's.
+  EXPECT_EQ(first_lux("distance_m\tlux\n1.000\t8.120\n2.000\t2.035\n"), 8.12);
+  EXPECT_EQ(first_lux("distance_mm\tlux\n1,000\t8,120\n2,000\t2,035\n"), 8120.0);
+  EXPECT_EQ(first_lux("distance_m\tlux\tcct_K\n1\t8,120\t2,700\n"), 8120.0);
 }
 
 TEST(PlainCsv, AColourTemperatureThatNoLampHasIsRefused) {
