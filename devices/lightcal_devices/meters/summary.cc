@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "lightcal/core/numbers_text.h"
@@ -71,6 +72,22 @@ void AddWarnings(const Warnings& more, Warnings& kept) {
   }
 }
 
+// 1 sigma of one measurement from how far all are from their median. Light that jumps back and
+// forth leaves most of them at one value and their middle deviation at nothing; one stray in five,
+// as any meter has, is what the median is for.
+double SpreadOf(std::vector<double> deviations, double median) {
+  constexpr double kSdPerMeanDeviation = 1.2533;  // sqrt(pi/2), of a normal variable
+  constexpr double kLeastShare = 0.25;
+  const auto count = static_cast<double>(deviations.size());
+  const double mean = std::accumulate(deviations.begin(), deviations.end(), 0.0) / count;
+  const auto away = static_cast<double>(std::ranges::count_if(
+      deviations, [&](double deviation) { return deviation > kFlickerSpread * median; }));
+  const double middle = kSdPerMad * Median(deviations);
+  const double jumps = kSdPerMeanDeviation * mean;
+  const bool jumping = away >= kLeastShare * count && std::isfinite(mean) && 2.0 * middle < jumps;
+  return (jumping ? jumps : middle) / median;
+}
+
 // What a series says about its lamp beyond the median.
 void AddSeriesWarnings(const std::vector<double>& values, const Summary& summary,
                        Warnings& warnings) {
@@ -116,7 +133,7 @@ std::optional<Summary> Summarise(std::span<const MeterReading> measurements) {
     std::vector<double> deviations;
     deviations.reserve(values.size());
     for (const double v : values) deviations.push_back(distance(v));
-    summary.spread_relative = kSdPerMad * Median(deviations) / median;
+    summary.spread_relative = SpreadOf(deviations, median);
     const double sigma = std::max(reading.sigma_relative.value_or(0.0), summary.spread_relative);
     if (sigma > 0.0) reading.sigma_relative = sigma;
   }

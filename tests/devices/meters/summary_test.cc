@@ -64,6 +64,22 @@ bool Warns(const std::vector<MeterReading>& series, std::string_view code) {
                              [&](const Warning& w) { return w.code == code; });
 }
 
+TEST(Summary, LightThatJumpsIsSeenThoughMostOfItIsAtOneValue) {
+  // |E_i - 100| = 0 200 0 0 200: mean 80, their middle 0.
+  const auto jumping = Series({100.0, 300.0, 100.0, 100.0, 300.0});
+  EXPECT_NEAR(Summarise(jumping)->spread_relative, 1.2533 * 0.8, 1e-12);
+  EXPECT_NEAR(*Summarise(jumping)->kept.reading.sigma_relative, 1.2533 * 0.8, 1e-12);
+  EXPECT_TRUE(Warns(jumping, "flicker"));
+  EXPECT_TRUE(Warns(Series({100.0, 101.0, 300.0, 99.0, 301.0, 100.0}), "flicker"));
+  // One stray, and digits that repeat.
+  EXPECT_EQ(Summarise(Series({100.0, 100.0, 300.0, 100.0, 100.0}))->spread_relative, 0.0);
+  for (const auto& steady :
+       {Series({192.0, 192.0, 192.1, 192.0, 192.1}), Series({5.0, 5.0, 5.0, 5.0, 5.0})}) {
+    EXPECT_EQ(Summarise(steady)->spread_relative, 0.0);
+    EXPECT_FALSE(Warns(steady, "flicker"));
+  }
+}
+
 TEST(Summary, OverRangeCountsAsBrighterThanEveryNumber) {
   auto series = Series({100.0, 101.0, 102.0});
   series[0].reading.over_range = true;  // shown 100, the end of its range
