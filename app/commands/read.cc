@@ -2,7 +2,6 @@
 // lightcal read: live readings, or typed ones, into a session's journal.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -20,6 +19,7 @@
 #include "read_options.h"
 #include "reading_source.h"
 #include "session_names.h"
+#include "taken_back.h"
 #include "terminal.h"
 
 namespace lightcal::app {
@@ -204,41 +204,12 @@ class ReadRun {
   int published_ = 0;
 };
 
-// The journal's last reading, of one lamp or of several.
-const SessionReading* LastOfJournal(const Session& session, const std::string& journal) {
-  const SessionReading* last = nullptr;
-  int last_line = 0;
-  // A lamp's readings at other states of its controls stand apart.
-  for (const auto* readings : {&session.readings, &session.state_readings}) {
-    for (const SessionReading& row : *readings) {
-      if (!row.where.starts_with(journal + ":")) continue;
-      const int line = std::stoi(row.where.substr(journal.size() + 1));
-      if (line >= last_line) last = &row, last_line = line;
-    }
-  }
-  return last;
-}
-
 // A number typed wrong is taken back; the line stays in the journal, and another says so.
-Result<void> TakeBackLast(const std::string& path, Console& console) {
-  const auto loaded = LoadSession(path, InputSources().read_text);
-  if (!loaded) return tl::unexpected(loaded.error());
-  console.Warn(loaded->warnings);
-  const std::string journal = JournalPath(path);
-  const std::string name = std::filesystem::path(journal).filename().string();
-  const SessionReading* last = LastOfJournal(loaded->session, name);
-  if (last == nullptr) {
-    return Refused("nothing_to_undo", journal, "holds no reading to take back");
-  }
-  if (auto written = AppendUndoToJournal(journal); !written) return written;
-  const Reading& reading = last->reading;
-  const std::string lux =
-      reading.illuminance ? " " + RoundedText(reading.illuminance->value(), 4) + " lx" : "";
-  const std::string distance =
-      reading.distance ? " at " + RoundedText(reading.distance->value(), 4) + " m" : "";
-  console.Print("took back " + last->where + ": " + Printable(reading.light) + lux + distance +
-                "\n");
-  console.PrintDocument({{"took_back", last->where}, {"reading", DocumentOf(reading)}});
+Result<void> RunUndo(const std::string& session, const std::string& light, Console& console) {
+  const auto taken = TakeBackLast(session, light, console);
+  if (!taken) return tl::unexpected(taken.error());
+  console.Print("took back " + taken->where + ": " + SayTakenBack(taken->reading) + "\n");
+  console.PrintDocument({{"took_back", taken->where}, {"reading", DocumentOf(taken->reading)}});
   return {};
 }
 
@@ -247,7 +218,7 @@ Result<void> TakeBackLast(const std::string& path, Console& console) {
 Run BuildRead(CLI::App& parser) {
   auto arguments = AddReadOptions(parser);
   return [arguments](Console& console) -> Result<void> {
-    if (arguments->undo) return TakeBackLast(arguments->session, console);
+    if (arguments->undo) return RunUndo(arguments->session, arguments->light, console);
     const auto options = ReadOptionsFrom(*arguments, CanAsk() && !console.json());
     if (!options) return tl::unexpected(options.error());
     if (options->guided) return ReadGuided(*options, console);

@@ -130,7 +130,8 @@ std::shared_ptr<ReadArguments> AddReadOptions(CLI::App& parser) {
   lux->excludes(device)->excludes(record)->excludes(replay)->excludes(count);
   lux->excludes(settle)->excludes(repeat)->excludes(memory);
   replay->excludes(device);
-  parser.add_flag("--undo", a.undo, "Take back the journal's last reading, typed or read wrong")
+  parser.add_flag("--undo", a.undo,
+                  "Take back the journal's last reading (of --light), typed or read wrong")
       ->needs(parser.get_option("--session"));
   parser.add_flag("--guided", a.guided,
                   "Be told where to put the meter [in a terminal, without --distance]");

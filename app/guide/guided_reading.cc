@@ -23,6 +23,7 @@
 #include "option_words.h"
 #include "reading_source.h"
 #include "session_names.h"
+#include "taken_back.h"
 #include "terminal.h"
 
 namespace lightcal::app {
@@ -193,11 +194,11 @@ class Walk {
       console_.Note("   nothing was read in this run yet");
       return false;
     }
-    if (auto kept = AppendUndoToJournal(JournalPath(options_.session)); !kept) {
-      return Propagate(std::move(kept));
-    }
+    const auto back = TakeBackThis(options_.session, mine_.back());
+    if (!back) return tl::unexpected(back.error());
+    mine_.pop_back();
     --taken_;
-    console_.Note("   took the last reading back");
+    console_.Note("   took the last reading back: " + SayTakenBack(back->reading));
     if (guide_->light()) console_.Note(Progress());
     return true;
   }
@@ -299,6 +300,7 @@ class Walk {
     if (auto strict = console_.RefuseIfStrict(); !strict) return Propagate(std::move(strict));
     const std::string journal = JournalPath(options_.session);
     if (auto kept = AppendToJournal(journal, reading); !kept) return Propagate(std::move(kept));
+    mine_.push_back(reading);
     ++taken_;
     plan_.settle_relative.reset();  // the lamp is warm now
     guide_->Add(reading);
@@ -387,6 +389,7 @@ class Walk {
   bool typed_ = false;
   bool drawn_ = false;
   std::vector<std::string> told_;  // codes of the fit's warnings that were shown
+  std::vector<Reading> mine_;      // of this run, those that count
   int step_ = 0;
   int taken_ = 0;
 };

@@ -199,11 +199,11 @@ TEST(GuidedSession, TheFitsDoubtsAreToldAndASlipIsTakenBack) {
                  // 100 cd, a digit too many, another lamp's colour, a distance said 60 cm wrong.
                  "400,3200K@0.5m\n999@1m\nk\nu\n100,5600K@1m\n25@2.6m\nk\nq\n");
   EXPECT_EQ(walked.exit_code, 0) << walked.err;
-  EXPECT_THAT(walked.err, HasSubstr("took the last reading back")) << walked.out;
+  EXPECT_THAT(walked.err, HasSubstr("took the last reading back: key 999.0 lx at 1.000 m")) << walked.out;
   EXPECT_THAT(walked.err, HasSubstr("   note: its colours")) << walked.out;
   const auto rows = RowsOf(home.path() + "/s/readings.jsonl");
   ASSERT_EQ(rows.size(), 5U);
-  EXPECT_EQ(rows[2]["undo"], true);
+  EXPECT_EQ(rows[2]["undo"], 2) << "the line of the slip";
   EXPECT_THAT(walked.err, HasSubstr("2.600 m) alone asks for a distance offset"));
   EXPECT_THAT(walked.out + walked.err, HasSubstr("key: 100 cd"));
   const CliResult validated = RunLightcal({"validate", home.path() + "/s"});

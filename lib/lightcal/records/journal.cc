@@ -69,7 +69,7 @@ tl::unexpected<Error> WriteFailure(const std::string& path, int error) {
 }
 
 off_t SizeOf(const File& file) {
-  struct stat status {};
+  struct stat status{};
   return ::fstat(file.get(), &status) == 0 ? status.st_size : -1;
 }
 
@@ -140,7 +140,7 @@ Result<void> AppendLines(const std::string& journal_path, const std::string& lin
   }
   if (file.get() < 0) return WriteFailure(journal_path, errno);
   if (auto locked = Lock(file, journal_path); !locked) return locked;
-  struct stat status {};
+  struct stat status{};
   if (::fstat(file.get(), &status) != 0) return WriteFailure(journal_path, errno);
   if (!S_ISREG(status.st_mode)) return WriteFailure(journal_path, EINVAL);
   const std::string bytes = (EndsInsideLine(file.get(), status.st_size) ? "\n" : "") + lines;
@@ -169,8 +169,8 @@ Result<void> AppendToJournal(const std::string& journal_path, std::span<const Re
   return AppendLines(journal_path, lines);
 }
 
-Result<void> AppendUndoToJournal(const std::string& journal_path) {
-  return AppendLines(journal_path, "{\"undo\":true}\n");
+Result<void> AppendUndoToJournal(const std::string& journal_path, int line) {
+  return AppendLines(journal_path, "{\"undo\":" + std::to_string(line) + "}\n");
 }
 
 }  // namespace lightcal

@@ -26,9 +26,10 @@ namespace lightcal {
   return AppendToJournal(journal_path, std::span(&reading, 1));
 }
 
-// A reading typed wrong is taken back by a line of its own, {"undo":true}: it takes back the last
-// reading above it that no other such line did. What was written stays, as in any laboratory's book.
-// Fails as AppendToJournal.
-[[nodiscard]] Result<void> AppendUndoToJournal(const std::string& journal_path);
+// A reading typed wrong is taken back by a line of its own, {"undo":3}: the reading of the
+// journal's line 3, as others may have written since; {"undo":true} takes back the last reading
+// above it that no other such line did. What was written stays, as in any laboratory's book. Fails
+// as AppendToJournal.
+[[nodiscard]] Result<void> AppendUndoToJournal(const std::string& journal_path, int line);
 
 }  // namespace lightcal

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -111,9 +114,12 @@ class JournalReader {
   }
 
  private:
+  static constexpr double kMostLines = 2e9;
+
   void ReadLine(std::string_view line, int number, bool closed, bool last) {
     const std::string where = file_name_ + ":" + std::to_string(number);
-    if (IsUndo(line)) return TakeBack(where);
+    if (const auto undone = UndoneLine(line)) return TakeBack(*undone, where);
+    number_ = number;
     records::LitKeys keys;
     auto reading = records::ReadingFromLine(line, where, keys);
     if (reading && keys.given) {
@@ -127,23 +133,37 @@ class JournalReader {
     }
   }
 
-  static bool IsUndo(std::string_view line) {
-    if (line.find("undo") == std::string_view::npos) return false;
+  // The line that this one takes back, 0 for the last reading; absent where it is no such line.
+  static std::optional<int> UndoneLine(std::string_view line) {
+    if (line.find("undo") == std::string_view::npos) return std::nullopt;
     const auto node = records::ParseJson(line);
-    if (!node || node->members.size() != 1) return false;
+    if (!node || node->members.size() != 1) return std::nullopt;
     const records::Node* const undo = node->Find("undo");
-    return undo != nullptr && undo->kind == records::Node::Kind::kBoolean && undo->boolean;
+    if (undo == nullptr) return std::nullopt;
+    if (undo->kind == records::Node::Kind::kBoolean && undo->boolean) return 0;
+    const bool counts = undo->IsNumber() && undo->number >= 1.0 && undo->number <= kMostLines &&
+                        undo->number == std::floor(undo->number);
+    return counts ? std::optional(static_cast<int>(undo->number)) : std::nullopt;
   }
 
-  void TakeBack(const std::string& where) {
-    if (taken_lit_.empty()) return Reject(where, "there is no reading above it to take back");
-    Session& session = loaded_.session;
-    if (taken_lit_.back()) {
-      session.lit_readings.pop_back();
-    } else {
-      session.readings.pop_back();
+  void TakeBack(int line, const std::string& where) {
+    const auto taken = line == 0 ? taken_.empty() ? taken_.end() : taken_.end() - 1
+                                 : std::ranges::find(taken_, line, &Taken::line);
+    if (taken == taken_.end()) {
+      return Reject(where, line == 0 ? "there is no reading above it to take back"
+                                     : "line " + std::to_string(line) +
+                                           " holds no reading that it could take back");
     }
-    taken_lit_.pop_back();
+    // Of its own kind as many stand behind it in the session as in the journal.
+    const auto behind = std::count_if(taken + 1, taken_.end(),
+                                      [&](const Taken& one) { return one.lit == taken->lit; });
+    Session& session = loaded_.session;
+    if (taken->lit) {
+      session.lit_readings.erase(session.lit_readings.end() - 1 - behind);
+    } else {
+      session.readings.erase(session.readings.end() - 1 - behind);
+    }
+    taken_.erase(taken);
   }
 
   void TakeReading(Reading reading, const std::string& where) {
@@ -153,7 +173,7 @@ class JournalReader {
       Reject(where, strange->message);
     } else {
       loaded_.session.readings.push_back({std::move(reading), where});
-      taken_lit_.push_back(false);
+      taken_.push_back({number_, false});
     }
   }
 
@@ -163,7 +183,7 @@ class JournalReader {
     } else {
       loaded_.session.lit_readings.push_back(
           {std::move(reading), where, std::move(keys.lit), std::move(keys.distances)});
-      taken_lit_.push_back(true);
+      taken_.push_back({number_, true});
     }
   }
 
@@ -180,7 +200,12 @@ class JournalReader {
 
   LoadedSession& loaded_;
   std::string file_name_;
-  std::vector<bool> taken_lit_;  // of the journal's readings, in their order: of several lamps
+  struct Taken {
+    int line = 0;
+    bool lit = false;  // of several lamps
+  };
+  std::vector<Taken> taken_;  // of the journal's readings, in their order
+  int number_ = 0;            // of the line that is read
 };
 
 }  // namespace
