@@ -13,27 +13,27 @@
 #include "guide/driven_fixture.h"
 #include "guide/shell_word.h"
 #include "guide/sweep_plan.h"
+#include "guide/sweep_readings.h"
 #include "input_files.h"
 #include "interrupt.h"
 #include "lightcal/core/interval_text.h"
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/core/printable.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/fit/states/state_answer.h"
 #include "lightcal/records/journal.h"
 #include "lightcal/records/session_codec.h"
 #include "lightcal/records/session_reader.h"
+#include "option_words.h"
 #include "read_options.h"
 #include "reading_source.h"
 #include "session_names.h"
+#include "taken_back.h"
 #include "terminal.h"
 
 namespace lightcal::app {
 namespace {
 
-// A lamp that gives this much less or more when it comes back to full is not yet steady.
-constexpr double kDrift = 0.02;
-// No warming up changes ln of its light so much: another number was typed, or the lamp is not back.
-constexpr double kNoDrift = 0.4;
 // Light that changes by less than this many of the meter's repeatabilities stands still: six looks'
 // least-squares line alone changes by 1.2 of them, 1 sigma.
 constexpr double kStillSigmas = 2.5;
@@ -96,6 +96,7 @@ class Sweep {
       if (!limit) return tl::unexpected(limit.error());
       settle_limit_ = std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * limit->value()));
     }
+    read_.emplace(FullOf(states_), session_, frame_);
     plan_.measurements = options_.measurements;
     auto settings = DriverSettings(options_.settings);
     if (!settings) return Propagate(std::move(settings));
@@ -149,12 +150,16 @@ class Sweep {
                     " readings are in the journal already.");
     }
     left_ = left.size();
-    for (std::size_t i = 0; i < left.size(); ++i) {
-      const auto more =
+    for (std::size_t i = 0; i < left.size();) {
+      const auto took =
           Take(left[i], std::to_string(skipped_ + i + 1) + " of " + std::to_string(order.size()));
-      if (!more) return tl::unexpected(more.error());
-      if (!*more) return {};
-      --left_;
+      if (!took) return tl::unexpected(took.error());
+      if (*took == Took::kEnd) return {};
+      if (*took == Took::kBack) {
+        --i, ++left_;
+      } else {
+        ++i, --left_;
+      }
     }
     return {};
   }
@@ -164,23 +169,33 @@ class Sweep {
     const std::vector<FixtureState> ends = EndsOf(states_);
     std::vector<FixtureState> candidates = NotYetRead(states_, session_, frame_);
     skipped_ = states_.size() - candidates.size();
-    const auto take = [&](FixtureState state,
-                          const std::string& why) -> Result<bool> {  // erased below
-      auto more = Take(state, why);
-      std::erase_if(candidates, [&](const FixtureState& one) { return SameState(one, state); });
-      return more;
+    // False: it ends here. What was taken back is to be read again.
+    const auto take = [&](FixtureState state, const std::string& why) -> Result<bool> {
+      const auto took = Take(state, why);
+      if (!took) return tl::unexpected(took.error());
+      const auto same = [&](const FixtureState& one) { return SameState(one, taken_back_); };
+      if (*took == Took::kBack && std::ranges::none_of(candidates, same)) {
+        candidates.push_back(taken_back_);
+      }
+      if (*took == Took::kReading) {
+        std::erase_if(candidates, [&](const FixtureState& one) { return SameState(one, state); });
+      }
+      return *took != Took::kEnd;
     };
-    for (const FixtureState& end : ends) {
-      const auto same = [&](const FixtureState& one) { return SameState(one, end); };
-      if (std::ranges::none_of(candidates, same)) continue;
-      const auto more = take(end, "an end");
+    const auto unread = [&](const FixtureState& end) {
+      return std::ranges::any_of(candidates,
+                                 [&](const FixtureState& one) { return SameState(one, end); });
+    };
+    for (auto end = std::ranges::find_if(ends, unread); end != ends.end();
+         end = std::ranges::find_if(ends, unread)) {
+      const auto more = take(*end, "an end");
       if (!more) return tl::unexpected(more.error());
       if (!*more) return {};
     }
     std::size_t others = ends.size();
     while (!candidates.empty()) {
       if (others >= kBackToFull) {
-        const auto more = Take(FullOf(states_), "back to full");
+        const auto more = take(FullOf(states_), "back to full");
         if (!more) return tl::unexpected(more.error());
         if (!*more) return {};
         others = 0;
@@ -227,32 +242,35 @@ class Sweep {
     return worst;
   }
 
-  // One state: set, read, journalled. False: the person stops here, or the tape is at its end.
-  Result<bool> Take(const FixtureState& state, const std::string& progress) {
-    if (!source_.HasMore() || InterruptGuard::StopRequest().Requested()) return false;
+  // A reading; the end: the person stops here, or the tape does; the last one was taken back;
+  // nothing.
+  enum class Took : std::uint8_t { kReading, kEnd, kBack, kNothing };
+
+  // One state: set, read, journalled.
+  Result<Took> Take(const FixtureState& state, const std::string& progress) {
+    if (!source_.HasMore() || InterruptGuard::StopRequest().Requested()) return Took::kEnd;
     const bool tape = source_.meter() != nullptr && source_.meter()->IsReplay();
     const std::string set = "[" + progress + "] set " + StateText(state);
     if (driven_) {
       console_.Note(set);
       const auto still = SetAndWait(state);
       if (!still) return tl::unexpected(still.error());
-      if (!*still) return false;
+      if (!*still) return Took::kEnd;
     } else if (tape) {
       console_.Note(set);
     } else if (source_.meter() != nullptr) {
-      if (!Ask(set + ", press Enter. ")) return false;
+      if (!Ask(set + ", press Enter. ")) return Took::kEnd;
       source_.meter()->DropBacklog();
     } else {
       console_.Note(set + ".");
     }
     Reading frame = frame_;
     frame.state = state;
-    auto taken = source_.Take(frame, plan_, console_);
-    if (!taken) {
-      const bool no_more = source_.meter() == nullptr && taken.error().code == "no_device";
-      if (no_more) return false;
-      return Propagate(std::move(taken));
-    }
+    Took took = Took::kReading;
+    const bool by_hand = source_.meter() == nullptr;
+    auto taken = by_hand ? TakeTyped(frame, took) : source_.Take(frame, plan_, console_);
+    if (!taken) return Propagate(std::move(taken));
+    if (took != Took::kReading) return took;
     if (driven_) {
       if (auto heard = driven_->Trouble(); !heard) return Propagate(std::move(heard));
     }
@@ -262,13 +280,85 @@ class Sweep {
     ++taken_;
     console_.Print(SayReading(*taken));
     std::fflush(stdout);
+    if (!by_hand) Keep(taken->reading);
     if (taken->reading.illuminance) before_lx_ = taken->reading.illuminance->value();
     if (taken->summary.count > 2) {
       repeatability_ =
           std::clamp(taken->summary.spread_relative, kLeastRepeatability, kMostRepeatability);
     }
-    WatchDrift(taken->reading);
+    if (taken->reading.illuminance) read_->Add(taken->reading, doubted_);
+    mine_.push_back(taken->reading);
+    return Took::kReading;
+  }
+
+  // What is no light of that state, most likely: asked where somebody can answer, else said. True:
+  // it is kept.
+  bool Keep(const Reading& reading) {
+    const bool typed = source_.meter() == nullptr && reading.illuminance;
+    const std::string doubt =
+        typed ? read_->DoubtAbout(reading.state, reading.illuminance->value()) : "";
+    doubted_ = !doubt.empty();
+    if (doubted_ && CanAsk()) {
+      const auto keep =
+          Ask("Is that right? " + doubt + ".\nEnter = type it again, k = keep it all the same: ");
+      if (!keep || *keep != "k") return false;
+    }
+    if (const auto change = read_->AtFull(reading, UndoLine())) {
+      console_.Warn(*change);
+    } else if (doubted_ && !CanAsk()) {
+      console_.Warn(
+          {"state_doubted", StateText(reading.state),
+           RoundedText(reading.illuminance->value(), 4) + " lx is hardly its light: " + doubt +
+               "; if it was mistyped, take it back (" + UndoLine() + ") and sweep again"});
+    }
     return true;
+  }
+
+  [[nodiscard]] std::string UndoLine() const {
+    return "lightcal read -s " + ShellWord(options_.session) + " --light " +
+           ShellWord(frame_.light) + " --undo";
+  }
+
+  // The last reading of this run counts no more, and its state is to be read again.
+  Result<Took> TakeBack() {
+    if (mine_.empty()) {
+      console_.Note("nothing was read in this run yet");
+      return Took::kNothing;
+    }
+    const auto back = TakeBackThis(options_.session, mine_.back());
+    if (!back) return tl::unexpected(back.error());
+    console_.Note("took the last reading back: " + SayTakenBack(back->reading));
+    taken_back_ = mine_.back().state;
+    if (mine_.back().illuminance) read_->TakeBack();
+    mine_.pop_back();
+    --taken_;
+    return Took::kBack;
+  }
+
+  // A state's number as it is typed: what was typed, "" where the person stops here.
+  Result<TakenReading> TakeTyped(const Reading& frame, Took& took) {
+    while (true) {
+      const auto typed =
+          Ask("What does the meter show? (for example 192, 17.8fc, or 192,2900K; u = take the last "
+              "one back, Enter = stop) ");
+      took = Took::kEnd;
+      if (!typed || typed->empty()) return TakenReading{};
+      if (*typed == "u" || *typed == "undo") {
+        auto back = TakeBack();
+        if (!back) return tl::unexpected(back.error());
+        took = *back;
+        if (took == Took::kBack) return TakenReading{};
+        continue;
+      }
+      auto taken = source_.TakeTyped(frame, *typed, console_);
+      if (!taken) {
+        std::fprintf(stderr, "  %s\n", Printable(InOptionWords(taken.error().message)).c_str());
+        continue;
+      }
+      if (!Keep(taken->reading)) continue;
+      took = Took::kReading;
+      return taken;
+    }
   }
 
   // False: the person stops here.
@@ -287,25 +377,6 @@ class Sweep {
                          " in half a second when the time to settle was over; read as it was"});
     }
     return !InterruptGuard::StopRequest().Requested();
-  }
-
-  void WatchDrift(const Reading& reading) {
-    if (!reading.illuminance || !SameState(reading.state, FullOf(states_))) return;
-    const double now = reading.illuminance->value();
-    const bool another = first_full_ && std::abs(std::log(now / *first_full_)) > kNoDrift;
-    if (another) {
-      console_.Warn({"return_disagrees", frame_.light,
-                     "back at " + StateText(reading.state) + " it read " + RoundedText(now, 4) +
-                         " lx where it had read " + RoundedText(*first_full_, 4) +
-                         ": if the number is wrong, take it back (lightcal read -s " +
-                         ShellWord(options_.session) + " --undo) and sweep again"});
-    } else if (first_full_ && std::abs(now / *first_full_ - 1.0) > kDrift) {
-      console_.Warn({"drift", frame_.light,
-                     "back at " + StateText(reading.state) + " it gives " +
-                         PercentText(now / *first_full_ - 1.0) +
-                         " of a change: let it warm up, and sweep again"});
-    }
-    if (!first_full_ && now > 0.0) first_full_ = now;
   }
 
   void Conclude() {
@@ -338,7 +409,11 @@ class Sweep {
   double repeatability_ = kUnknownRepeatability;
   std::optional<double> before_lx_;
   double until_ = 0.0;
-  std::optional<double> first_full_, worst_;
+  std::optional<double> worst_;
+  std::optional<SweepReadings> read_;
+  bool doubted_ = false;       // the last reading, and kept
+  std::vector<Reading> mine_;  // of this run, those that count
+  FixtureState taken_back_;    // the state whose reading was taken back last
   std::size_t taken_ = 0, skipped_ = 0, left_ = 0;
 };
 

@@ -10,6 +10,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/colour/fit_color.h"
 #include "lightcal/fit/model/observations.h"
+#include "lightcal/fit/states/doubted_states.h"
 #include "lightcal/fit/states/drift.h"
 #include "lightcal/fit/states/predicted_reading.h"
 #include "lightcal/fit/states/split_geometries.h"
@@ -296,6 +297,7 @@ void MeasureStates(const Session& session, const LightDescription& description,
   }
   light.states = std::move(out);
   WarnOfPredictedReference(light, warnings);
+  WarnOfDoubtedStates(light, warnings);
   if (other_geometry && light.intensity_cd) {
     warnings.push_back({"offset_shared", light.name,
                         "some zoom or modifier was read at one distance alone; where its light "
