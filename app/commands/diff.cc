@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // lightcal diff: did the lamp change, or is it only the measurement?
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "commands.h"
@@ -16,7 +18,7 @@ namespace {
 
 struct DiffOptions {
   std::string a, b;
-  double correlation = 0.0;
+  std::optional<double> correlation;
   bool fail_on_change = false;
 };
 
@@ -55,6 +57,7 @@ Node ChangeNode(const LightChange& light) {
           {"in", light.before && light.after ? "both" : (light.before ? "old" : "new")},
           {"changed", light.Changed()},
           {"kind_changed", light.kind_changed ? Node(true) : Node()},
+          {"common_meter", Node::UnlessEmpty(light.common_meter)},
           {"quantities", Node::List(light.quantities, QuantityNode)}};
 }
 
@@ -62,7 +65,7 @@ Node ToJson(const DiffOptions& options, const LightComparison& comparison) {
   return {{"old", options.a},
           {"new", options.b},
           {"coverage", 0.95},
-          {"correlation", options.correlation},
+          {"correlation", options.correlation.value_or(0.0)},
           {"shared_inputs", comparison.shared_inputs},
           {"changed", comparison.Changed()},
           {"lights", Node::List(comparison.lights, ChangeNode)}};
@@ -110,11 +113,11 @@ std::string Table(const LightComparison& comparison) {
 }
 
 std::string Assumption(const DiffOptions& options, const LightComparison& comparison) {
-  std::string text =
-      "u is the 95 % half width of a difference whose two errors are " +
-      (options.correlation == 0.0 ? std::string("independent")
-                                  : "correlated by " + RoundedText(options.correlation, 2)) +
-      ": of lamps that did not change, 1 quantity in 20 exceeds it.\n";
+  const double correlation = options.correlation.value_or(0.0);
+  std::string text = "u is the 95 % half width of a difference whose two errors are " +
+                     (correlation == 0.0 ? std::string("independent")
+                                         : "correlated by " + RoundedText(correlation, 2)) +
+                     ": of lamps that did not change, 1 quantity in 20 exceeds it.\n";
   if (comparison.same_inputs) {
     return text +
            "Both were made from the same files: what differs is the program or its settings, "
@@ -125,10 +128,16 @@ std::string Assumption(const DiffOptions& options, const LightComparison& compar
            " input files are the same on both sides; their errors are common, so that less would "
            "be a change.\n";
   }
-  if (options.correlation == 0.0) {
+  const auto common = std::ranges::find_if(
+      comparison.lights, [](const LightChange& light) { return !light.common_meter.empty(); });
+  if (common != comparison.lights.end()) {
+    text += "The meter " + common->common_meter +
+            " read both: its own error is common, and not in the differences of light. If they are "
+            "two of one name: --correlation 0.\n";
+  } else if (!options.correlation) {
     text +=
         "One meter read both? Its gain is common, and smaller changes are real: say so with "
-        "--correlation 0.5.\n";
+        "--correlation 0.5, or give it one name in both sessions.\n";
   }
   return text;
 }
@@ -159,9 +168,9 @@ Run BuildDiff(CLI::App& parser) {
   parser.add_option("new", options->b, what)->required();
   parser
       .add_option("--correlation", options->correlation,
-                  "Of the errors of both: 0 = independent, 1 = wholly common")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+                  "Of the errors of both: 0 = independent, 1 = wholly common [the error of a meter "
+                  "of one name common, all else independent]")
+      ->check(CLI::Range(0.0, 1.0));
   parser.add_flag("--fail-on-change", options->fail_on_change,
                   "Exit 1 where anything changed beyond its uncertainty");
   return [options](Console& console) { return RunDiff(*options, console); };

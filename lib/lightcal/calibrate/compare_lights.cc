@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lightcal/colorimetry/chromaticity.h"
+#include "lightcal/core/uncertain.h"
 #include "lightcal/core/units.h"
 #include "lightcal/core/vec3.h"
 
@@ -45,15 +46,26 @@ Change Judged(double difference, double size, double u95, bool u_known) {
 
 class Comparer {
  public:
-  Comparer(double correlation, LightChange& into) : correlation_(correlation), into_(into) {}
+  // gain: 1 sigma of the relative error that both sides' light has in common.
+  Comparer(double correlation, double gain, LightChange& into)
+      : correlation_(correlation), gain_(gain), into_(into) {}
+
+  // A quantity proportional to the lamp's light.
+  void Light(std::string quantity, std::string unit, const std::optional<Uncertain>& a,
+             const std::optional<Uncertain>& b) {
+    Values(std::move(quantity), std::move(unit), a, b, gain_);
+  }
 
   void Values(std::string quantity, std::string unit, const std::optional<Uncertain>& a,
-              const std::optional<Uncertain>& b) {
+              const std::optional<Uncertain>& b, double gain = 0.0) {
     if (!a || !b) return;
     QuantityChange change{std::move(quantity), std::move(unit), true, *a, *b};
     change.difference = b->value - a->value;
-    change.u95 =
-        Combined(HalfWidthTowards(*a, b->value), HalfWidthTowards(*b, a->value), correlation_);
+    const double ua = HalfWidthTowards(*a, b->value), ub = HalfWidthTowards(*b, a->value);
+    const double common = std::min(ua, kZ95 * gain * std::abs(a->value)) *
+                          std::min(ub, kZ95 * gain * std::abs(b->value));
+    const double correlation = common > 0.0 ? common / (ua * ub) : correlation_;
+    change.u95 = Combined(ua, ub, correlation);
     change.change = Judged(change.difference, a->value, change.u95, a->u95 > 0.0 || b->u95 > 0.0);
     into_.quantities.push_back(std::move(change));
   }
@@ -121,6 +133,7 @@ class Comparer {
 
  private:
   double correlation_;
+  double gain_;
   LightChange& into_;
 };
 
@@ -132,26 +145,32 @@ void CompareStates(const FittedLight& a, const FittedLight& b, Comparer& compare
     const bool reference = SameState(one.state, a.state) && SameState(a.state, b.state);
     if (other == b.states.end() || reference) continue;
     const std::string of = "states[" + StateText(one.state) + "].";
-    compare.Values(of + "intensity_cd", "cd", one.intensity_cd, other->intensity_cd);
-    compare.Values(of + "illuminance_lx", "lx", one.illuminance_lx, other->illuminance_lx);
+    compare.Light(of + "intensity_cd", "cd", one.intensity_cd, other->intensity_cd);
+    compare.Light(of + "illuminance_lx", "lx", one.illuminance_lx, other->illuminance_lx);
     compare.Values(of + "color.cct_K", "K", one.color.cct_K, other->color.cct_K);
   }
 }
 
-LightChange Compared(const FittedLight& a, const FittedLight& b, double correlation) {
+LightChange Compared(const FittedLight& a, const FittedLight& b,
+                     std::optional<double> correlation) {
   LightChange change;
   change.name = a.name == b.name ? a.name : a.name + " -> " + b.name;
   change.kind_changed = a.kind != b.kind;
-  Comparer compare(correlation, change);
+  const bool one_meter = !correlation && a.meter && b.meter && !a.meter->name.empty() &&
+                         a.meter->name == b.meter->name;
+  double gain = 0.0;
+  if (one_meter) gain = std::min(a.meter->calibration_relative, b.meter->calibration_relative);
+  if (gain > 0.0) change.common_meter = a.meter->name;
+  Comparer compare(correlation.value_or(0.0), gain, change);
   // At different references the lights themselves are not one thing; their common states are.
   if (!SameState(a.state, b.state) && !a.state.empty() && !b.state.empty()) {
     CompareStates(a, b, compare);
     return change;
   }
-  compare.Values("intensity_cd", "cd", a.intensity_cd, b.intensity_cd);
-  compare.Values("flux_lm", "lm", a.flux_lm, b.flux_lm);
-  compare.Values("illuminance_lx", "lx", a.illuminance_lx, b.illuminance_lx);
-  compare.Values("luminance_nits", "cd/m²", a.luminance_nits, b.luminance_nits);
+  compare.Light("intensity_cd", "cd", a.intensity_cd, b.intensity_cd);
+  compare.Light("flux_lm", "lm", a.flux_lm, b.flux_lm);
+  compare.Light("illuminance_lx", "lx", a.illuminance_lx, b.illuminance_lx);
+  compare.Light("luminance_nits", "cd/m²", a.luminance_nits, b.luminance_nits);
   compare.Values("color.cct_K", "K", a.color.cct_K, b.color.cct_K);
   compare.Values("color.duv", "", a.color.duv, b.color.duv);
   compare.Chromaticity(a.color, b.color);
@@ -201,7 +220,8 @@ bool LightChange::Changed() const {
 
 bool LightComparison::Changed() const { return std::ranges::any_of(lights, &LightChange::Changed); }
 
-LightComparison CompareLights(const LightFile& a, const LightFile& b, double correlation) {
+LightComparison CompareLights(const LightFile& a, const LightFile& b,
+                              std::optional<double> correlation) {
   LightComparison comparison;
   FindSharedInputs(a.provenance, b.provenance, comparison);
   if (a.lights.size() == 1 && b.lights.size() == 1) {

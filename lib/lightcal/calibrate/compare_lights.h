@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct LightChange {
   std::string name;                  // before; of a pair with two names "key -> key2"
   bool before = true, after = true;  // which calibration has it
   bool kind_changed = false;
+  std::string common_meter;  // whose error is in both and so in no difference of light, "" = none
   std::vector<QuantityChange> quantities;
 
   [[nodiscard]] bool Changed() const;
@@ -50,11 +52,13 @@ struct LightComparison {
 // with 95 % half widths ua and ub, of asymmetric intervals those of the sides that face each other,
 //   u = sqrt(ua^2 + ub^2 - 2 r ua ub),     r the correlation of their errors, 0 = independent
 // is the 95 % half width of the difference of normal errors: of lamps that did not change, 1
-// quantity in 20 exceeds it. One meter's gain is common to both sides (r > 0): taking r = 0 then
-// calls too few changes, never too many; u is never below a thousandth of ua or ub, which is how
-// exactly a fit ends. A position's three coordinates are judged together, by
+// quantity in 20 exceeds it. Where no r is given and one meter (by its name) read both sides, its
+// calibration c is common to what they say of light,
+//   u = sqrt(ua^2 + ub^2 - 2 pa pb),       p = min(u, 1.96 c value)
+// and all else independent. u is never below a thousandth of ua or ub, which is how exactly a fit
+// ends. A position's three coordinates are judged together, by
 // 2.795/1.960 times the u along the difference (chi-square with three degrees of freedom).
 [[nodiscard]] LightComparison CompareLights(const LightFile& a, const LightFile& b,
-                                            double correlation);
+                                            std::optional<double> correlation);
 
 }  // namespace lightcal
