@@ -51,9 +51,39 @@ for first, second in (("01.03.2026 12:00:05", "01.03.2026 12:02:05"), ("2026-03-
     rows, said = imported("times", f"timestamp,distance_m,illuminance_lx\n{first},0.5,400\n{second},1,100\n")
     assert [row["time"] for row in rows] == ["2026-03-01T12:00:05", "2026-03-01T12:02:05"], (first, rows)
     assert "left out" not in said, said
+# A date and a time of their own, seconds since 1970, and slashes that one stamp of the column settles.
+for header, first, second, times in (
+        ("Date,Time", "2026/03/01,12:00:05", "2026/03/01,12:02:05", ("2026-03-01T12:00:05", "2026-03-01T12:02:05")),
+        ("Datum,Uhrzeit", "01.03.2026,12:00:05", "01.03.2026,12:02:05", ("2026-03-01T12:00:05", "2026-03-01T12:02:05")),
+        ("Date,Time", "3/1/2026,2:05:00 PM", "3/25/2026,12:10:00 AM", ("2026-03-01T14:05:00", "2026-03-25T00:10:00")),
+        ("time", "1772366405", "1772366525", ("2026-03-01T12:00:05Z", "2026-03-01T12:02:05Z")),
+        ("timestamp", "1772366405250", "1772366525000", ("2026-03-01T12:00:05.250Z", "2026-03-01T12:02:05.000Z")),
+        ("timestamp", "01/03/2026 12:00", "25/03/2026 12:00", ("2026-03-01T12:00:00", "2026-03-25T12:00:00"))):
+    rows, said = imported("times", f"{header},distance_m,Lux\n{first},0.5,400\n{second},1,100\n")
+    assert tuple(row["time"] for row in rows) == times, (first, rows, said)
+    assert "left out" not in said, said
+for header, first, second in (("Date,Time", "3/1/2026,2:05:00 PM", "3/2/2026,2:05:00 PM"),
+                              ("timestamp", "13/03/2026 12:00", "03/25/2026 12:00"),
+                              ("Date", "2026-03-01", "2026-03-02")):
+    rows, said = imported("either", f"{header},distance_m,Lux\n{first},0.5,400\n{second},1,100\n")
+    assert len(rows) == 2 and not any("time" in row for row in rows) and "left out" in said, (rows, said)
 # March or April? Left out, and said so.
 rows, said = imported("either", "timestamp,distance_m,illuminance_lx\n03/04/2026 12:00,0.5,400\n04/04/2026 12:00,1,100\n")
 assert len(rows) == 2 and "left out" in said and "time" in said, said
+
+# ---- names: a lamp's own, and other languages' ----
+rows, said = imported("lamps", "lamp,distance_m,Lux\nkey,0.5,400\nkey,1,100\n")
+assert [row["light"] for row in rows] == ["key", "key"] and not said.count("warning"), (rows, said)
+rows, _ = imported("lamps", "lamp,distance_m,Lux\non,0.5,400\noff,1,1\n")
+assert rows[1]["lamp"] == "off", rows
+_, said = imported("lamps", "lamp,distance_m,Lux\nkey,0.5,400\noff,1,1\n", code=3)
+assert "on or off" in said, said
+for header in ("Abstand [m];Beleuchtungsstärke [lx]", "Distance (m);Éclairement (lx)", "距離(m);照度(lx)",
+               "Entfernung / m;E / lx", "distancia_m;Iluminancia (lux)"):
+    rows, _ = imported("words", f"{header}\n0,5;400,5\n1;100\n")
+    assert [(row["distance_m"], row["illuminance_lx"]) for row in rows] == [(0.5, 400.5), (1, 100)], (header, rows)
+_, said = imported("words", "Abstand;Beleuchtungsstärke [lx]\n0,5;400,5\n", code=3)
+assert "no unit" in said, said
 
 # ---- decimals ----
 _, said = imported("mixed", "distance_m;illuminance_lx\n0,5;400.5\n1,0;100.2\n", code=3)

@@ -86,6 +86,7 @@ constexpr std::array kOtherNames = {
     KnownName{"lambda_a", CsvQuantity::kWavelength, 0.1},
     KnownName{"wavelength_angstrom", CsvQuantity::kWavelength, 0.1},
     KnownName{"angstrom", CsvQuantity::kWavelength, 0.1},
+    KnownName{"date", CsvQuantity::kDate},
     KnownName{"timestamp", CsvQuantity::kTimestamp},
     KnownName{"time_stamp", CsvQuantity::kTimestamp},
     KnownName{"datetime", CsvQuantity::kTimestamp},
@@ -167,6 +168,38 @@ const KnownName* Lookup(const Table& table, std::string_view name) {
   return known == table.end() ? nullptr : &*known;
 }
 
+// The two quantities every table of a lamp holds, as other languages' software names them.
+struct ForeignWord {
+  std::string_view word, name;
+};
+constexpr std::array kForeignWords = {
+    ForeignWord{"abstand", "distance"},
+    ForeignWord{"entfernung", "distance"},
+    ForeignWord{"distanz", "distance"},
+    ForeignWord{"distancia", "distance"},
+    ForeignWord{"distanza", "distance"},
+    ForeignWord{"\xE8\xB7\x9D\xE9\x9B\xA2", "distance"},  // kyori
+    ForeignWord{"beleuchtungsst\xC3\xA4rke", "illuminance"},
+    ForeignWord{"beleuchtungsstaerke", "illuminance"},
+    ForeignWord{"\xC3\xA9"
+                "clairement",
+                "illuminance"},
+    ForeignWord{"\xC3\x89"
+                "clairement",
+                "illuminance"},
+    ForeignWord{"eclairement", "illuminance"},
+    ForeignWord{"iluminancia", "illuminance"},
+    ForeignWord{"illuminamento", "illuminance"},
+    ForeignWord{"\xE7\x85\xA7\xE5\xBA\xA6", "illuminance"},  // shodo
+    ForeignWord{"datum", "date"},
+    ForeignWord{"uhrzeit", "time"},
+    ForeignWord{"zeit", "time"},
+};
+std::string InEnglish(const Token& token) {
+  const auto known = std::ranges::find(kForeignWords, token.text, &ForeignWord::word);
+  return known == kForeignWords.end() ? token.text : std::string(known->name);
+}
+
 std::string SeriesName(std::string_view before_unit) {
   std::string series(before_unit);
   const std::string lower = LowerAscii(series);
@@ -243,7 +276,7 @@ CsvColumn ColumnFromName(std::string_view name) {
     dimmer->written = name;
     return *dimmer;
   }
-  const std::string joined = Joined(tokens, "_", &Token::text);
+  const std::string joined = Joined(tokens, "_", InEnglish);
   const KnownName* known = Lookup(kScalarNames, joined);
   if (known == nullptr) known = Lookup(kOtherNames, joined);
   if (known == nullptr) return {CsvQuantity::kUnknown, 1.0, std::string(name), ""};

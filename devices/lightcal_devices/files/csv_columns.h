@@ -31,6 +31,7 @@ enum class CsvQuantity {
   kLight,
   kMeter,
   kTime,
+  kDate,       // beside a time of its own (csv_table.h)
   kTimestamp,  // a time where every cell is one (csv_table.h)
   kLamp,
   kShadowCard,

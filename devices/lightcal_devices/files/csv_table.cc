@@ -8,6 +8,7 @@
 
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
+#include "lightcal_devices/files/csv_times.h"
 #include "lightcal_devices/files/table_notation.h"
 
 namespace lightcal::devices::files {
@@ -149,6 +150,54 @@ bool MayBePartsOfOne(Cells&& cells, const NumberNotation& notation) {
   return most > 0.0;
 }
 
+std::size_t ColumnOf(const CsvTable& table, CsvQuantity quantity) {
+  return static_cast<std::size_t>(std::ranges::find(table.columns, quantity, &CsvColumn::quantity) -
+                                  table.columns.begin());
+}
+
+// Puts a date in a column of its own before the time beside it, and writes all times as ISO 8601
+// where the column tells how they are meant. A timestamp that is none is a column of words.
+void SettleTimes(CsvTable& table) {
+  std::size_t time = ColumnOf(table, CsvQuantity::kTime);
+  const bool named_time = time < table.columns.size();
+  if (!named_time) time = ColumnOf(table, CsvQuantity::kTimestamp);
+  const std::size_t date = ColumnOf(table, CsvQuantity::kDate);
+  const bool dated = date < table.columns.size() && time < table.columns.size();
+  if (date < table.columns.size() && !dated) table.columns[date].quantity = CsvQuantity::kUnknown;
+  std::vector<std::string> written;
+  for (const Row& row : table.rows) {
+    const std::string cell(TrimBlanks(CellAt(row, time)));
+    written.push_back(
+        dated && !cell.empty() ? std::string(TrimBlanks(CellAt(row, date))) + " " + cell : cell);
+  }
+  const auto times = TimesOfCells({written.begin(), written.end()});
+  for (std::size_t i = 0; times && i < table.rows.size(); ++i) {
+    if (time < table.rows[i].cells.size()) table.rows[i].cells[time] = (*times)[i];
+  }
+  for (CsvColumn& column : table.columns) {
+    const bool other = &column != table.columns.data() + time;
+    if (column.quantity == CsvQuantity::kTimestamp) {
+      column.quantity = times && !other ? CsvQuantity::kTime : CsvQuantity::kUnknown;
+    }
+    // Which day and which month nobody can tell: a column of words, as it stands.
+    const bool of_date = column.quantity == CsvQuantity::kDate || (dated && !other);
+    if (of_date && !times) column.quantity = CsvQuantity::kUnknown;
+  }
+}
+
+// A column named lamp is its name where none of its cells says on or off.
+void SettleLamp(CsvTable& table) {
+  const std::size_t lamp = ColumnOf(table, CsvQuantity::kLamp);
+  const bool named = ColumnOf(table, CsvQuantity::kLight) < table.columns.size();
+  if (lamp == table.columns.size() || named) return;
+  constexpr std::array<std::string_view, 6> kStates = {"on", "off", "true", "false", "1", "0"};
+  const bool states = std::ranges::any_of(table.rows, [&](const Row& row) {
+    const std::string cell = LowerAscii(TrimBlanks(CellAt(row, lamp)));
+    return std::ranges::find(kStates, cell) != kStates.end();
+  });
+  if (!states) table.columns[lamp].quantity = CsvQuantity::kLight;
+}
+
 // A column named timestamp is the reading's time where every cell tells one and no other column
 // does; one named dimmer is in percent unless it may be parts of 1.
 Result<void> SettleByCells(CsvTable& table) {
@@ -158,16 +207,10 @@ Result<void> SettleByCells(CsvTable& table) {
            }) |
            std::views::filter([](std::string_view cell) { return !cell.empty(); });
   };
-  const bool timed = std::ranges::find(table.columns, CsvQuantity::kTime, &CsvColumn::quantity) !=
-                     table.columns.end();
+  SettleTimes(table);
+  SettleLamp(table);
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     CsvColumn& column = table.columns[i];
-    if (column.quantity == CsvQuantity::kTimestamp) {
-      const bool told = !timed && std::ranges::all_of(cells(i), [](std::string_view cell) {
-        return !TimeOfCell(cell).empty();
-      });
-      column.quantity = told ? CsvQuantity::kTime : CsvQuantity::kUnknown;
-    }
     if (column.quantity != CsvQuantity::kDimmerUnsaid) continue;
     column.quantity = CsvQuantity::kState;
     if (MayBePartsOfOne(cells(i), table.notation)) {
@@ -185,16 +228,8 @@ bool IsWord(CsvQuantity quantity) {
   return quantity == CsvQuantity::kLight || quantity == CsvQuantity::kMeter ||
          quantity == CsvQuantity::kTime || quantity == CsvQuantity::kLamp ||
          quantity == CsvQuantity::kShadowCard || quantity == CsvQuantity::kState ||
-         quantity == CsvQuantity::kTimestamp || quantity == CsvQuantity::kDimmerUnsaid;
-}
-
-std::string TimeOfCell(std::string_view cell) {
-  const bool year_first = cell.size() >= 10 && (cell[4] == '-' || cell[4] == '/');
-  if (year_first) return IsoTime(cell, DateOrder::kYearFirst);
-  // 01.03.2026 is the first of March wherever points are written; 01/03/2026 either.
-  const std::size_t date = cell.find_first_not_of("0123456789.");
-  const std::string_view day_first = cell.substr(0, date);
-  return std::ranges::count(day_first, '.') == 2 ? IsoTime(cell, DateOrder::kDayFirst) : "";
+         quantity == CsvQuantity::kTimestamp || quantity == CsvQuantity::kDimmerUnsaid ||
+         quantity == CsvQuantity::kDate;
 }
 
 bool IsLeftOut(CsvQuantity quantity) {

@@ -29,9 +29,6 @@ struct CsvTable {
 [[nodiscard]] bool IsWord(CsvQuantity quantity);
 [[nodiscard]] bool IsLeftOut(CsvQuantity quantity);
 
-// ISO 8601 of 2026-03-01 12:00:05, 2026/03/01 12:00 or 01.03.2026 12:00; "" for anything else.
-[[nodiscard]] std::string TimeOfCell(std::string_view cell);
-
 // Absent where the cell is no finite number; in a column of illuminance, of a limit its number.
 [[nodiscard]] std::optional<double> NumberAt(const CsvTable& table, const Row& row,
                                              std::size_t column);
@@ -43,8 +40,9 @@ struct CsvTable {
 // Whether the first line that is no comment names at least one quantity.
 [[nodiscard]] bool IsTableUnderHeader(std::string_view text);
 
-// Of the columns that come out, none is kTimestamp or kDimmerUnsaid. Refused: no_rows, bad_row
-// (more cells than columns, naming the line), units_ambiguous (a dimmer that may be parts of 1),
+// Of the columns that come out, none is kTimestamp or kDimmerUnsaid; a date stands with its time,
+// and a column lamp that holds no on or off is the light's name. Refused: no_rows, bad_row (more
+// cells than columns, naming the line), units_ambiguous (a dimmer that may be parts of 1),
 // decimals_ambiguous (table_notation.h).
 [[nodiscard]] Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name,
                                                 DecimalSign decimals);

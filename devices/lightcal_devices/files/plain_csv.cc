@@ -14,6 +14,7 @@
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal_devices/files/csv_table.h"
+#include "lightcal_devices/files/csv_times.h"
 #include "lightcal_devices/files/spectrum_readings.h"
 
 namespace lightcal::devices::files {
