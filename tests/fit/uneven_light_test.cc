@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "lightcal/fit/model/input_checks.h"
 
@@ -72,6 +73,36 @@ TEST(UnevenLight, WithoutAPlaceAnyDirectionIsPossible) {
   seen.rows[2].position_m.reset();
   EXPECT_NEAR(UnevenTowards(seen, BulbAtTheOrigin()).at(2),
               std::sqrt((2 * 0.09 * 0.09 + 0.22 * 0.22) / 3.0), 1e-12);
+}
+
+Observation Aside(double degrees) {
+  Observation o = At({0.0, 0.0, 1.0});
+  o.position_m.reset();
+  o.off_axis_rad = degrees * 3.14159265358979 / 180.0;
+  return o;
+}
+
+// Any number of readings aside, of either side, tells the axis what one of them does; the axis
+// itself is what is sought, and every other one goes by the gradient of 2 sin(angle/2).
+TEST(UnevenLight, ReadingsAsideShareWhatItShinesThere) {
+  LightDescription light = BulbAtTheOrigin();
+  light.position_m.reset();
+  Observations seen;
+  seen.rows = {Aside(0.0), Aside(0.0)};
+  EXPECT_TRUE(UnevenTowards(seen, light).empty()) << "on the axis alone nothing changes";
+  seen.rows = {Aside(0.0), Aside(60.0), Aside(-60.0), Aside(90.0)};
+  const double rms = std::sqrt((2 * 0.09 * 0.09 + 0.22 * 0.22) / 3.0);
+  const std::vector<double> sd = UnevenTowards(seen, light);
+  ASSERT_EQ(sd.size(), 4U);
+  EXPECT_EQ(sd[0], 0.0);
+  EXPECT_NEAR(sd[1], rms * std::sqrt(3.0), 1e-12);
+  EXPECT_EQ(sd[1], sd[2]);
+  EXPECT_NEAR(sd[3], rms * std::sqrt(2.0) * std::sqrt(1.0 + std::sqrt(2.0)), 1e-12);
+  EXPECT_NEAR(UnevenAside(light, RadiansFromDegrees(180.0)), 2.0 * rms, 1e-12);
+  light.fixture.reset();
+  EXPECT_EQ(UnevenTowards(seen, light), sd) << "whose fixture nobody states, as a bulb";
+  light.kind = LightKind::kSphere;
+  EXPECT_TRUE(UnevenTowards(seen, light).empty()) << "a ball shines alike";
 }
 
 Observation Turned(double distance_m, double cosine, double lamp_lx, double walls_lx) {

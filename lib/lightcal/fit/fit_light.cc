@@ -16,6 +16,7 @@
 #include "lightcal/fit/beam/unstated_inner.h"
 #include "lightcal/fit/colour/fit_color.h"
 #include "lightcal/fit/fit_by_distance.h"
+#include "lightcal/fit/fit_uneven_bulb.h"
 #include "lightcal/fit/locate/fit_located_light.h"
 #include "lightcal/fit/locate/locate.h"
 #include "lightcal/fit/model/data_sheet.h"
@@ -82,6 +83,9 @@ Result<FittedLight> FitStrength(const Session& session, const LightDescription& 
     session_out.Warn(std::move(observations->warnings));
     return fit::FitLocatedLight(session, light, *observations, settings, std::move(out),
                                 session_out);
+  }
+  if (auto bulb = fit::FitUnevenBulb(session, light, *observations, settings, out, session_out)) {
+    return *std::move(bulb);
   }
   if (fit::NeedsProfile(*observations, light)) {
     Result<std::optional<FittedLight>> shaped =

@@ -19,20 +19,19 @@ constexpr double kDarkOfPeak = 2e-4;     // what a meter still sees in the dark,
 constexpr double kOffAxisScatter = 0.5;  // of ln of the walls' light, in and around a beam
 constexpr double kPlaceSigma_m = 0.01;   // 1 sigma of where a meter stood
 constexpr double kAnyAim = 0.4;          // 1 sigma of the tilts of an aim that nobody stated
-constexpr double kEvenSpan = 45.0 * kRadiansPerDegree;  // over which an even lamp has to be seen
 
 // Whether it may shine alike in all directions: by places; by angles where it was read over a span
 // of them, or is said to be a bulb.
 bool MayBeEven(const LightDescription& light, bool placed, double angles_read_rad) {
   if (light.kind != LightKind::kPoint || light.beam || light.field) return false;
   if (placed) return true;
-  if (!light.fixture) return angles_read_rad >= kEvenSpan;
+  if (!light.fixture) return angles_read_rad >= kEvenSpan_rad;
   switch (*light.fixture) {
     case Fixture::kBulb:
       return true;
     case Fixture::kSoftbox:
     case Fixture::kLuminaire:
-      return angles_read_rad >= kEvenSpan;
+      return angles_read_rad >= kEvenSpan_rad;
     default:
       return false;
   }

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "lightcal/core/units.h"
 #include "lightcal/fit/model/observations.h"
 #include "lightcal/fit/model/off_axis_pose.h"
 #include "lightcal/records/session.h"
@@ -14,6 +15,9 @@ namespace lightcal::fit {
 // 1 sigma of an angle off the axis as it was set, and of the axis it is counted from: as stated,
 // else a degree.
 [[nodiscard]] Radians AngleSigma(const LightDescription& light);
+
+// Over which angles a lamp has to be seen that is called even without being called a bulb.
+inline constexpr double kEvenSpan_rad = 45.0 * kRadiansPerDegree;
 
 // The lamp as a source with size and aim. Absent where the session does not say enough: no
 // position, no aim (disk, rect, spot), neither aim nor axis (tube), no size, a spot without

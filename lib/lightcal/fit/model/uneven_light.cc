@@ -19,6 +19,13 @@ constexpr Vec3 kToOneSide = {0.8, 0.8, 0.8};
 // Unit vectors nearer together than this are one direction.
 constexpr double kOneDirection = 0.25;
 
+// How many of them share an error as large as `one`.
+double Sharing(const std::vector<double>& errors, double one) {
+  double out = 0.0;
+  for (const double error : errors) out += std::min(1.0, error / one);
+  return out;
+}
+
 std::vector<std::optional<Vec3>> DirectionsOf(const Observations& observations, const Vec3& lamp) {
   std::vector<std::optional<Vec3>> out(observations.rows.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -29,6 +36,9 @@ std::vector<std::optional<Vec3>> DirectionsOf(const Observations& observations, 
   }
   return out;
 }
+
+// Of a gradient, along a direction that nobody states.
+double Anywhere(const Vec3& gradient_sd) { return Length(gradient_sd) / std::sqrt(3.0); }
 
 // Readings of one direction.
 struct SharedDirection {
@@ -56,6 +66,19 @@ std::optional<UnevenLight> UnevenByPlaces(const Observations& observations,
   if (!sd || !light.position_m) return std::nullopt;
   const std::optional<Vec3> middle = MiddleOf(observations, *light.position_m);
   return middle ? std::optional(UnevenLight{*sd, *middle}) : std::nullopt;
+}
+
+// By readings that say how far off its axis they were taken; which way round it nobody says.
+std::vector<double> UnevenByAngles(const Observations& observations,
+                                   const LightDescription& light) {
+  std::vector<double> own;
+  for (const Observation& o : observations.rows) {
+    own.push_back(o.lit ? UnevenAside(light, Radians(o.off_axis_rad)) : 0.0);
+  }
+  if (std::ranges::none_of(own, [](double sd) { return sd > 0.0; })) return {};
+  std::vector<double> out = own;
+  for (double& sd : out) sd *= sd > 0.0 ? std::sqrt(Sharing(own, sd)) : 0.0;
+  return out;
 }
 
 // The mean of unit vectors that are one is as long as they are.
@@ -103,9 +126,16 @@ std::string SayThatItShinesEvenly(const std::string& light) {
          "from some: fixture = \"bulb\" lets the intervals hold that too";
 }
 
+double UnevenAside(const LightDescription& light, Radians off_axis) {
+  LightDescription named = light;
+  if (!named.fixture) named.fixture = Fixture::kBulb;
+  const std::optional<Vec3> sd = GradientOf(named);
+  return sd ? Anywhere(*sd) * 2.0 * std::abs(std::sin(0.5 * off_axis.value())) : 0.0;
+}
+
 std::vector<double> UnevenTowards(const Observations& observations, const LightDescription& light) {
   const std::optional<UnevenLight> uneven = UnevenByPlaces(observations, light);
-  if (!uneven || OfOneDirection(uneven->middle)) return {};
+  if (!uneven || OfOneDirection(uneven->middle)) return UnevenByAngles(observations, light);
   const auto directions = DirectionsOf(observations, *light.position_m);
   // Each reading is of the first direction that it is near to: a sphere has some hundred of them.
   std::vector<SharedDirection> shared;
@@ -119,7 +149,7 @@ std::vector<double> UnevenTowards(const Observations& observations, const LightD
     if (near == shared.end()) shared.push_back({*directions[i], 0});
     ++shared[which[i]].readings;
   }
-  const double anywhere = Length(uneven->gradient_sd) / std::sqrt(3.0);
+  const double anywhere = Anywhere(uneven->gradient_sd);
   std::vector<double> out(directions.size(), anywhere);
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (!directions[i]) continue;
@@ -132,16 +162,14 @@ std::vector<double> UnevenTowards(const Observations& observations, const LightD
 std::vector<double> UnevenByTable(const Observations& observations) {
   // Half the bound.
   constexpr double kSigma = 0.5 * effects::kInterpolationMargin;
-  const std::vector<Observation>& rows = observations.rows;
-  std::vector<double> out(rows.size(), 0.0);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double error = rows[i].lit ? rows[i].table_error : 0.0;
-    if (!(error > 0.0)) continue;
-    double sharing = 0.0;
-    for (const Observation& row : rows) {
-      if (row.lit) sharing += std::min(1.0, row.table_error / error);
-    }
-    out[i] = kSigma * error * std::sqrt(sharing);
+  std::vector<double> errors;
+  for (const Observation& row : observations.rows) {
+    errors.push_back(row.lit ? std::max(0.0, row.table_error) : 0.0);
+  }
+  std::vector<double> out(errors.size(), 0.0);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (!(errors[i] > 0.0)) continue;
+    out[i] = kSigma * errors[i] * std::sqrt(Sharing(errors, errors[i]));
   }
   return out;
 }

@@ -31,9 +31,16 @@ namespace lightcal::fit {
                                       const LightDescription& light);
 [[nodiscard]] std::string SayThatItShinesEvenly(const std::string& light);
 
+// 1 sigma of ln I so far off the axis beside that on it, of a point; one whose fixture nobody
+// states is as uneven as bulbs are: |sd (u - axis)| = 2 sin(angle/2) rms(sd), which way round the
+// axis nobody says. 0 of all other kinds.
+[[nodiscard]] double UnevenAside(const LightDescription& light, Radians off_axis);
+
 // Of such a point, beside the observations: 1 sigma of ln I towards the meter beside the mean
 // towards all, times the root of how many readings lie in that direction, which share it. A meter
-// whose place is not known may be anywhere. Empty where all lie in one direction.
+// whose place is not known may be anywhere. Of meters that say how far off its axis they stood,
+// beside the axis, which is what is sought (UnevenAside): lobes are broad, and all of them share
+// one. Empty where all lie in one direction.
 [[nodiscard]] std::vector<double> UnevenTowards(const Observations& observations,
                                                 const LightDescription& light);
 
