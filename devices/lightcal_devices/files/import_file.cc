@@ -39,9 +39,9 @@ constexpr std::array kFormats = {
 
 // Null where none recognises the text.
 const Format* FormatOf(std::string_view text) {
-  const auto* const format = std::ranges::find_if(
+  const auto format = std::ranges::find_if(
       kFormats, [&](const Format& candidate) { return candidate.recognise(text); });
-  return format == kFormats.end() ? nullptr : format;
+  return format == kFormats.end() ? nullptr : &*format;
 }
 
 // The file's text and what messages call it.
