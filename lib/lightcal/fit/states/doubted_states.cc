@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -87,16 +88,16 @@ std::optional<std::size_t> OneToBlame(const Steps& steps) {
 // 10 where the step would be in order were it ten times darker, 1/10 brighter; none where no power
 // of ten brings it between its neighbours, or beyond an end within a factor of ten.
 std::optional<double> HealingFactor(const Steps& steps, std::size_t at) {
-  constexpr double kLnTen = 2.302585092994046, kSlack = 0.05;
+  constexpr double kSlack = 0.05;
   double low = -HUGE_VAL, high = HUGE_VAL;
   for (std::size_t j = 0; j < steps.size(); ++j) {
     if (j < at) low = std::max(low, steps[j].ln);
     if (j > at) high = std::min(high, steps[j].ln);
   }
-  if (at == 0) low = high - kLnTen;
-  if (at + 1 == steps.size()) high = low + kLnTen;
+  if (at == 0) low = high - std::numbers::ln10;
+  if (at + 1 == steps.size()) high = low + std::numbers::ln10;
   for (const int power : {1, -1, 2, -2, 3, -3}) {
-    const double ln = steps[at].ln - power * kLnTen;
+    const double ln = steps[at].ln - power * std::numbers::ln10;
     if (ln > low - kSlack && ln < high + kSlack) return std::pow(10.0, power);
   }
   return std::nullopt;
@@ -140,7 +141,7 @@ void WarnOfOrder(const FittedLight& light, const Steps& steps, Warnings& warning
 
 // Of one that is in order: whether the others say something far from it.
 void WarnOfFar(const FittedLight& light, const Steps& steps, std::size_t at, Warnings& warnings) {
-  constexpr double kLnFar = 1.386294361119891;  // a factor of 4
+  const double ln_far = std::log(4.0);
   const Step &below = steps[at - 1], &here = steps[at], &above = steps[at + 1];
   // What a straight line and one of equal ratios say, before the costly question.
   if (!(below.dimmer > 0.0) || !(above.dimmer > below.dimmer)) return;
@@ -150,12 +151,12 @@ void WarnOfFar(const FittedLight& light, const Steps& steps, std::size_t at, War
   const auto along = [&](double part) { return below.ln + part * (above.ln - below.ln); };
   const double low = std::min(along(of_ratio), along(of_step));
   const double high = std::max(along(of_ratio), along(of_step));
-  if (here.ln > low - kLnFar && here.ln < high + kLnFar) return;
+  if (here.ln > low - ln_far && here.ln < high + ln_far) return;
   const auto told = AnswerWithout(light, here.index);
   if (!told || !(told->relative.value > 0.0)) return;
   const double off = here.ln - std::log(told->relative.value);
   const double half = std::log1p(told->relative.u95 / told->relative.value);
-  if (std::abs(off) < std::max(kLnFar, 2.0 * half)) return;
+  if (std::abs(off) < std::max(ln_far, 2.0 * half)) return;
   warnings.push_back(
       {"state_out_of_line", light.name + " at " + StateText(light.states[here.index].state),
        "was read at " + SharesText(light, here) + " of " + StateText(light.state) +

@@ -8,9 +8,8 @@
 namespace lightcal::fit {
 
 // Of the light's states along the dimmer, all other controls alike:
-//   state_not_monotonic  one is brighter than a state of a higher dimmer, by more than 5 of their
-//   own
-//                        sigmas and 10 %
+//   state_not_monotonic  one is brighter than a state of a higher dimmer, by more than 10 % and 5
+//                        of their own sigmas
 //   state_out_of_line    one lies between its neighbours, yet a factor of 4 and twice the interval
 //                        from what the others say of it (AnswerWithout)
 // Both name the state whose removal mends it, and the power of ten that would.
