@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadRow{"distance_m;lux\n0,5;192.0\n", "table.csv:2"},  // both decimal signs
                     BadRow{"distance_m,lux\n1,\n", "table.csv:2"},         // nothing measured
                     BadRow{"lux,time\n5,03/04/2026 10:00:00\n", "table.csv:2"},  // March or April?
-                    BadRow{"lux,lamp\n5,dimmed\n", "table.csv:2"},
+                    BadRow{"lux,lamp\n5,on\n5,dimmed\n", "table.csv:3"},
                     BadRow{"x,y\n0.8,0.7\n", "table.csv:2"}));
 
 TEST_P(RefusedRow, RefusesTheWholeFileAndNamesTheLine) {
