@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lightcal/core/numbers_text.h"
+#include "lightcal/fit/states/doubted_states.h"
 
 namespace lightcal::app {
 namespace {
@@ -16,14 +17,6 @@ constexpr double kDrift = 0.02;
 constexpr double kNoDrift = 0.4;
 constexpr double kMeterDoubt = 1.05;
 constexpr double kFar = 4.0;
-
-// Whether two states differ in the dimmer alone, or in nothing.
-bool SameButForDimmer(FixtureState a, FixtureState b) {
-  const auto is_dimmer = [](const ControlValue& one) { return one.name == kDimmerControl; };
-  std::erase_if(a, is_dimmer);
-  std::erase_if(b, is_dimmer);
-  return SameState(a, b);
-}
 
 double LuxOf(const Reading& reading) { return reading.illuminance->value(); }
 
@@ -58,7 +51,8 @@ std::string SweepReadings::DoubtAbout(const FixtureState& state, double lux) con
       continue;
     }
     const auto at = NumberOfControl(other.state, kDimmerControl);
-    if (doubted || !dimmer || !at || !SameButForDimmer(other.state, state)) continue;
+    if (doubted || !dimmer || !at || !SameState(WithoutDimmer(other.state), WithoutDimmer(state)))
+      continue;
     if (*at < *dimmer && read > kMeterDoubt * lux) return Read(other) + ", and is dimmed lower";
     if (*at > *dimmer && lux > kMeterDoubt * read) return Read(other) + ", and is dimmed less";
     const auto nearer = [&](const Reading* known) {
@@ -70,15 +64,12 @@ std::string SweepReadings::DoubtAbout(const FixtureState& state, double lux) con
     if (*at > *dimmer && nearer(above)) above = &other;
   }
   if (below == nullptr || above == nullptr || !(LuxOf(*below) > 0.0)) return "";
-  const double low = *NumberOfControl(below->state, kDimmerControl);
-  const double high = *NumberOfControl(above->state, kDimmerControl);
-  if (!(low > 0.0)) return "";
-  const double step = (*dimmer - low) / (high - low);
-  const double ratio = std::log(*dimmer / low) / std::log(high / low);
-  const auto between = [&](double part) {
-    return LuxOf(*below) * std::pow(LuxOf(*above) / LuxOf(*below), part);
+  const auto dimmed = [](const Reading& known) {
+    return fit::DimmedLight{*NumberOfControl(known.state, kDimmerControl), std::log(LuxOf(known))};
   };
-  const auto [least, most] = std::minmax({between(step), between(ratio)});
+  const auto between = fit::LnBetween(dimmed(*below), dimmed(*above), *dimmer);
+  if (!between) return "";
+  const double least = std::exp(between->low), most = std::exp(between->high);
   if (lux > least / kFar && lux < most * kFar) return "";
   return Read(*below) + " and " + Read(*above) + ", so that here about " +
          RoundedText(std::sqrt(least * most), 2) + " lx are expected";

@@ -12,6 +12,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
 from built_command import HOME, answer, refused  # noqa: E402
+from card_session import write_card_session  # noqa: E402
 from plain_dng import mosaic, write_dng  # noqa: E402
 from plain_exr import read_exr  # noqa: E402
 
@@ -83,20 +84,7 @@ for odd in range(3):
         refused("exposures_disagree", *merged(3), says="EV from what")
 
 # In a session, too.
-(HOME / "session.toml").write_text("""lightcal = 1
-[room]
-dark = true
-[[light]]
-name = "key"
-kind = "point"
-[[capture]]
-light = "key"
-frames = "c/*.dng"
-use = "card"
-rect = [49, 33, 10, 30]
-distance_m = 1
-reflectance = 0.18
-""")
+write_card_session(HOME, (49, 33, 10, 30))
 nits = np.full_like(nits, 0.2 * NITS_AT_WHITE) * (1 + 0.5 * (u > 72))
 for odd in (0, 1, 2):
     tags = [1 / 8, 1 / 4, 1 / 2]

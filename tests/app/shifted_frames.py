@@ -11,6 +11,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "tools"))
 from built_command import HOME, answer, refused  # noqa: E402
+from card_session import write_card_session  # noqa: E402
 from plain_dng import mosaic, write_dng  # noqa: E402
 
 ELECTRONS, READ_NOISE = 20_000.0, 3.0
@@ -36,20 +37,7 @@ def shoot(light, shifts):
         write_dng(HOME / f"c/f{i}.dng", mosaic(signal), time, 8, 100, (1, 1, 1))
 
 
-(HOME / "session.toml").write_text("""lightcal = 1
-[room]
-dark = true
-[[light]]
-name = "key"
-kind = "point"
-[[capture]]
-light = "key"
-frames = "c/*.dng"
-use = "card"
-rect = [122, 82, 36, 26]
-distance_m = 1
-reflectance = 0.18
-""")
+write_card_session(HOME, (122, 82, 36, 26))
 WORDS = ("fit", HOME, "-o", HOME / "light.json", "--force")
 shoot(card, [(0, 0)] * 3)
 answer(*WORDS)

@@ -11,8 +11,8 @@ namespace lightcal::devices::files {
 // What one cell tells of the signs in it.
 //   192,5  0,125  1,34E+02  12.030,5   a comma before decimals
 //   12,030.5  1,203,400                a comma between thousands
-//   8,120                              either: one sign, three digits behind it, one to three
-//   before
+//   8,120                              either: one sign, one to three digits before it, three
+//                                      behind
 struct SignsOfCell {
   bool comma_decimal = false, point_decimal = false;
   bool comma_parts = false, point_parts = false;

@@ -17,9 +17,8 @@ struct Summary {
 
 // E = median of the E_i; colour and spectrum are those of the measurement nearest to it.
 //   spread = 1.4826 median|E_i - E| / E        (1 sigma of a normal variable from its MAD), or
-//            1.2533 mean|E_i - E| / E          where that is over twice as much and a quarter of
-//            the
-//                                              E_i or more are over 2 % away: light that jumps
+//            1.2533 mean|E_i - E| / E          where that is over twice as much and a quarter or
+//                                              more of the E_i are over 2 % away: light that jumps
 //   sigma  = max(sigma of the meter, spread)
 // A measurement over range counts as brighter than all others, one under range as darker; when the
 // median itself is one of them, the summary is that censored reading and has no spread.

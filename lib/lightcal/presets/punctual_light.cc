@@ -100,12 +100,7 @@ std::string TooMuchWhereRead(const FittedLight& lamp) {
   constexpr double kLeastTold = 0.02;
   if (!lamp.length_m) return "";
   const AxialShape shape{AxialShape::Outline::kTube, 0.5 * *lamp.length_m};
-  std::optional<double> nearest;
-  for (const ResidualRow& row : lamp.residuals) {
-    if (row.used && row.distance_m && *row.distance_m > 0.0) {
-      nearest = std::min(nearest.value_or(*row.distance_m), *row.distance_m);
-    }
-  }
+  const auto nearest = NearestRead_m(lamp);
   if (!nearest) return "";
   const double too_much = 1.0 / AxialShapeFactor(shape, *nearest) - 1.0;
   if (!(too_much > kLeastTold)) return "";
@@ -269,6 +264,16 @@ Result<std::vector<PunctualLight>> PunctualLightsFrom(const LightFile& file, War
   }
   WarnOfStackedLights(file, warnings);
   return lights;
+}
+
+std::optional<double> NearestRead_m(const FittedLight& lamp) {
+  std::optional<double> nearest;
+  for (const ResidualRow& row : lamp.residuals) {
+    if (row.used && row.distance_m && *row.distance_m > 0.0) {
+      nearest = std::min(nearest.value_or(*row.distance_m), *row.distance_m);
+    }
+  }
+  return nearest;
 }
 
 double EffectiveOffset_m(const FittedLight& lamp) {

@@ -64,6 +64,8 @@ inline constexpr double kLambertianInnerCosine = 0.8284271247461903;
 // From the point distances were measured from to the effective source: d0, and the radius that the
 // fit added before it (SurfaceRadius_m). 0 for lights at infinity.
 [[nodiscard]] double EffectiveOffset_m(const FittedLight& lamp);
+// The least distance of its readings that count; absent where none says one.
+[[nodiscard]] std::optional<double> NearestRead_m(const FittedLight& lamp);
 
 // Illuminance of one light at a point on a surface of unit normal `normal`, by the glTF law:
 //   E = photometric * attenuation(angle) * max(0, cos incidence) / d^2,  or photometric * cos.

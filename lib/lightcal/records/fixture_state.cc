@@ -66,6 +66,11 @@ std::optional<double> NumberOfControl(const FixtureState& state, std::string_vie
   return control->number;
 }
 
+FixtureState WithoutDimmer(FixtureState state) {
+  std::erase_if(state, [](const ControlValue& one) { return one.name == kDimmerControl; });
+  return state;
+}
+
 std::string FaultOfState(const FixtureState& state) {
   for (std::size_t i = 0; i < state.size(); ++i) {
     const ControlValue& control = state[i];

@@ -39,6 +39,8 @@ void SortState(FixtureState& state);
 // The number of a control; absent where it is a word or not there.
 [[nodiscard]] std::optional<double> NumberOfControl(const FixtureState& state,
                                                     std::string_view name);
+// The other controls.
+[[nodiscard]] FixtureState WithoutDimmer(FixtureState state);
 // What is wrong with a state, empty where nothing is: a control twice, a name that no file can
 // hold, a dimmer outside 0 ... 100, a colour temperature of 0 or less, a number that is not finite.
 [[nodiscard]] std::string FaultOfState(const FixtureState& state);

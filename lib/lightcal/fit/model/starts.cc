@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "lightcal/core/weighted_median.h"
+
 namespace lightcal::fit {
 namespace {
 
@@ -94,24 +96,6 @@ LinearFit FitIntensityAndAmbient(const Estimation& estimation, double d0) {
                     fit.ambient * fit.ambient * bb;
   if (!rule.free) fit.ambient = rule.prior_mean;
   return fit;
-}
-
-struct WeightedValue {
-  double value = 0.0;
-  double weight = 0.0;
-};
-
-double WeightedMedian(std::vector<WeightedValue>& values) {
-  std::sort(values.begin(), values.end(),
-            [](const WeightedValue& a, const WeightedValue& b) { return a.value < b.value; });
-  double total = 0.0;
-  for (const WeightedValue& v : values) total += v.weight;
-  double sum = 0.0;
-  for (const WeightedValue& v : values) {
-    sum += v.weight;
-    if (sum >= 0.5 * total) return v.value;
-  }
-  return values.back().value;
 }
 
 double AbsoluteDeviation(const Estimation& estimation, const Theta& theta) {

@@ -23,11 +23,6 @@ struct Step {
 };
 using Steps = std::vector<Step>;  // by dimmer, ascending
 
-FixtureState WithoutDimmer(FixtureState state) {
-  std::erase_if(state, [](const ControlValue& one) { return one.name == kDimmerControl; });
-  return state;
-}
-
 // The states that differ in the dimmer alone, together.
 std::vector<Steps> AlongTheDimmer(const FittedLight& light) {
   std::vector<std::pair<FixtureState, Steps>> groups;
@@ -143,14 +138,10 @@ void WarnOfOrder(const FittedLight& light, const Steps& steps, Warnings& warning
 void WarnOfFar(const FittedLight& light, const Steps& steps, std::size_t at, Warnings& warnings) {
   const double ln_far = std::log(4.0);
   const Step &below = steps[at - 1], &here = steps[at], &above = steps[at + 1];
-  // What a straight line and one of equal ratios say, before the costly question.
-  if (!(below.dimmer > 0.0) || !(above.dimmer > below.dimmer)) return;
-  const double of_ratio =
-      std::log(here.dimmer / below.dimmer) / std::log(above.dimmer / below.dimmer);
-  const double of_step = (here.dimmer - below.dimmer) / (above.dimmer - below.dimmer);
-  const auto along = [&](double part) { return below.ln + part * (above.ln - below.ln); };
-  const double low = std::min(along(of_ratio), along(of_step));
-  const double high = std::max(along(of_ratio), along(of_step));
+  // What the costly question is asked of.
+  const auto between = LnBetween({below.dimmer, below.ln}, {above.dimmer, above.ln}, here.dimmer);
+  if (!between) return;
+  const auto [low, high] = *between;
   if (here.ln > low - ln_far && here.ln < high + ln_far) return;
   const auto told = AnswerWithout(light, here.index);
   if (!told || !(told->relative.value > 0.0)) return;
@@ -165,6 +156,16 @@ void WarnOfFar(const FittedLight& light, const Steps& steps, std::size_t at, War
 }
 
 }  // namespace
+
+std::optional<LnRange> LnBetween(const DimmedLight& below, const DimmedLight& above,
+                                 double dimmer) {
+  if (!(below.dimmer > 0.0) || !(above.dimmer > below.dimmer)) return std::nullopt;
+  const double of_ratio = std::log(dimmer / below.dimmer) / std::log(above.dimmer / below.dimmer);
+  const double of_step = (dimmer - below.dimmer) / (above.dimmer - below.dimmer);
+  const auto along = [&](double part) { return below.ln + part * (above.ln - below.ln); };
+  return LnRange{std::min(along(of_ratio), along(of_step)),
+                 std::max(along(of_ratio), along(of_step))};
+}
 
 void WarnOfDoubtedStates(const FittedLight& light, Warnings& warnings) {
   for (const Steps& steps : AlongTheDimmer(light)) {

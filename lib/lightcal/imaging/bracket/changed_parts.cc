@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lightcal/core/statistics.h"
+#include "lightcal/core/weighted_median.h"
 #include "lightcal/imaging/bracket/exposure_ratios.h"
 #include "lightcal/imaging/bracket/rough_ratio.h"
 
@@ -34,51 +35,41 @@ struct RegionRatio {
 };
 using RegionRatios = std::vector<std::optional<RegionRatio>>;
 
-struct RatioSample {
-  double ratio = 0.0, weight = 0.0, a = 0.0;  // a: share of the clip
+struct RegionSamples {
+  std::vector<WeightedValue> ratios;
+  double levels = 0.0;  // sum, as shares of the clip
 };
 
-double WeightedMedian(std::vector<RatioSample>& samples) {
-  std::ranges::sort(samples, {}, &RatioSample::ratio);
-  double total = 0.0;
-  for (const RatioSample& sample : samples) total += sample.weight;
-  double below = 0.0;
-  for (const RatioSample& sample : samples) {
-    below += sample.weight;
-    if (2.0 * below >= total) return sample.ratio;
-  }
-  return samples.back().ratio;
-}
-
-std::optional<RegionRatio> RatioOf(std::vector<RatioSample>& samples) {
+std::optional<RegionRatio> RatioOf(RegionSamples& samples) {
   constexpr double kSdOfMedian = 1.2533;
-  if (samples.size() < kLeastOfRegion) return std::nullopt;
-  const double ratio = WeightedMedian(samples);
+  if (samples.ratios.size() < kLeastOfRegion) return std::nullopt;
+  const double level = samples.levels / static_cast<double>(samples.ratios.size());
+  const double ratio = WeightedMedian(samples.ratios);
   if (!(ratio > 0.0)) return std::nullopt;
-  double sum = 0.0, squares = 0.0, a = 0.0;
-  for (RatioSample& sample : samples) {
-    sum += sample.weight;
-    squares += sample.weight * sample.weight;
-    a += sample.a;
-    sample.ratio = std::abs(sample.ratio - ratio);
+  double sum = 0.0, squares = 0.0;
+  for (WeightedValue& one : samples.ratios) {
+    sum += one.weight;
+    squares += one.weight * one.weight;
+    one.value = std::abs(one.value - ratio);
   }
-  a /= static_cast<double>(samples.size());
-  const double scatter = kSdPerMad * WeightedMedian(samples) / ratio;
+  const double scatter = kSdPerMad * WeightedMedian(samples.ratios) / ratio;
   const double noise = kSdOfMedian * scatter * std::sqrt(squares) / sum;
-  const double sd = std::hypot(noise, kModel, kBlackOff / a);
+  const double sd = std::hypot(noise, kModel, kBlackOff / level);
   return RegionRatio{std::log(ratio), sd, 1.0 / (1.0 + sd * sd / (kWellKnown * kWellKnown))};
 }
 
 RegionRatios RatiosOfRegions(const SampledSignals& signals, std::size_t a, std::size_t b,
                              std::span<const float> clip, double ratio) {
-  std::vector<std::vector<RatioSample>> samples(kRegions);
+  std::vector<RegionSamples> samples(kRegions);
   const auto& first = signals.frames[a];
   const auto& second = signals.frames[b];
   const double larger = std::max(ratio, 1.0);
   for (std::size_t i = 0; i < first.size(); i += first.size() / (kRegions * kEnoughOfRegion) + 1) {
     const double x = (double{first[i]} + second[i]) / (1.0 + ratio) / clip[i];
     if (x * larger < kLevelsFrom || x * larger > kLevelsTo || !(first[i] > 0.0F)) continue;
-    samples[RegionOf(signals, i)].push_back({second[i] / double{first[i]}, std::sqrt(x), x});
+    RegionSamples& region = samples[RegionOf(signals, i)];
+    region.ratios.push_back({second[i] / double{first[i]}, std::sqrt(x)});
+    region.levels += x;
   }
   RegionRatios ratios;
   for (auto& region : samples) ratios.push_back(RatioOf(region));

@@ -62,10 +62,7 @@ void PutNotes(const PresetTarget& engine, const DerivedLight& light, EngineFigur
 // Where its light starts, if that shows in the nearest reading.
 std::string PlaceText(const FittedLight& lamp) {
   constexpr double kShows = 0.05;
-  double nearest_m = 1.0;
-  for (const ResidualRow& row : lamp.residuals) {
-    if (row.used && row.distance_m) nearest_m = std::min(nearest_m, *row.distance_m);
-  }
+  const double nearest_m = std::min(1.0, NearestRead_m(lamp).value_or(1.0));
   const double offset_m = EffectiveOffset_m(lamp);
   if (2.0 * std::abs(offset_m) < kShows * nearest_m) return "";
   return "stands " + RoundedText(100.0 * std::abs(offset_m), 2) + " cm " +
