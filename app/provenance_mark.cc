@@ -216,10 +216,16 @@ Result<void> CheckEnding(const std::string& path, std::string_view format) {
   std::string wanted = " json ";
   if (!format.starts_with(kSchema)) wanted = " " + std::string(format) + " ";
   if (format == kTapeFormat) wanted = " tape ";
-  if (known->formats.find(wanted) != std::string_view::npos) return {};
+  const auto holds = [&](const Ending& one) {
+    return one.formats.find(wanted) != std::string_view::npos;
+  };
+  if (holds(*known)) return {};
+  const auto fits = std::ranges::find_if(kEndings, holds);
   return Refused("wrong_ending", path,
                  "ends as another kind of file than what would be written there (" +
-                     std::string(format) + "); nothing was written, choose a name that fits");
+                     std::string(format) + "); nothing was written, choose a name that " +
+                     (fits == kEndings.end() ? std::string("fits")
+                                             : "ends in " + std::string(fits->ending)));
 }
 
 bool EndsAsOurs(const std::string& path) {

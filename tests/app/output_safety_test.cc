@@ -193,6 +193,10 @@ TEST_F(OutputSafety, ANameThatEndsAsAnotherFormatOrIsTakenTwiceIsRefused) {
   ExpectNothingChanged({"merge", frames, "-o", InFolder("a.exr"), "--sigma", InFolder("a.exr")}, 3);
   ExpectNothingChanged({"merge", frames, "-o", InFolder("a.exr"), "--sigma", InFolder("./a.exr")},
                        3);
+  // Which name fits is said.
+  const auto table = RunLightcal({"run", session_, "--summary", InFolder("farm.csv")});
+  EXPECT_EQ(table.exit_code, 3);
+  EXPECT_THAT(table.err, HasSubstr("ends in .json"));
 }
 
 TEST_F(OutputSafety, ALinkThatWaitsForAPredictableNameIsNotFollowed) {
