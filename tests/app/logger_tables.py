@@ -74,6 +74,15 @@ assert len(rows) == 2 and "left out" in said and "time" in said, said
 # ---- names: a lamp's own, and other languages' ----
 rows, said = imported("lamps", "lamp,distance_m,Lux\nkey,0.5,400\nkey,1,100\n")
 assert [row["light"] for row in rows] == ["key", "key"] and not said.count("warning"), (rows, said)
+for header in ("fixture", "Luminaire", "Leuchte", "Lamp name"):
+    rows, said = imported("fixtures", f"{header},distance_m,Lux\nkey,0.5,400\nkey,1,100\n")
+    assert [row["light"] for row in rows] == ["key", "key"] and "warning" not in said, (rows, said)
+    # Two lamps' readings are never one lamp's.
+    _, said = imported("fixtures", f"{header},distance_m,Lux\nkey,0.5,400\nfill,1,100\n", code=3)
+    assert "fill: the session has no such light" in said, said
+# Beside the light's name it is what the light is.
+rows, said = imported("fixtures", "light,fixture,distance_m,Lux\nkey,PAR 64,0.5,400\nkey,PAR 64,1,100\n")
+assert len(rows) == 2 and "column fixture" in said, said
 rows, _ = imported("lamps", "lamp,distance_m,Lux\non,0.5,400\noff,1,1\n")
 assert rows[1]["lamp"] == "off", rows
 _, said = imported("lamps", "lamp,distance_m,Lux\nkey,0.5,400\noff,1,1\n", code=3)

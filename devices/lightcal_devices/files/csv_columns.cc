@@ -86,6 +86,12 @@ constexpr std::array kOtherNames = {
     KnownName{"lambda_a", CsvQuantity::kWavelength, 0.1},
     KnownName{"wavelength_angstrom", CsvQuantity::kWavelength, 0.1},
     KnownName{"angstrom", CsvQuantity::kWavelength, 0.1},
+    KnownName{"fixture", CsvQuantity::kFixture},
+    KnownName{"fixture_name", CsvQuantity::kFixture},
+    KnownName{"luminaire", CsvQuantity::kFixture},
+    KnownName{"luminaire_name", CsvQuantity::kFixture},
+    KnownName{"lamp_name", CsvQuantity::kFixture},
+    KnownName{"light_name", CsvQuantity::kFixture},
     KnownName{"date", CsvQuantity::kDate},
     KnownName{"timestamp", CsvQuantity::kTimestamp},
     KnownName{"time_stamp", CsvQuantity::kTimestamp},
@@ -168,7 +174,7 @@ const KnownName* Lookup(const Table& table, std::string_view name) {
   return known == table.end() ? nullptr : &*known;
 }
 
-// The two quantities every table of a lamp holds, as other languages' software names them.
+// What every table of lamps holds, as other languages' software names it.
 struct ForeignWord {
   std::string_view word, name;
 };
@@ -191,6 +197,14 @@ constexpr std::array kForeignWords = {
     ForeignWord{"iluminancia", "illuminance"},
     ForeignWord{"illuminamento", "illuminance"},
     ForeignWord{"\xE7\x85\xA7\xE5\xBA\xA6", "illuminance"},  // shodo
+    ForeignWord{"leuchte", "fixture"},
+    ForeignWord{"lampe", "fixture"},
+    ForeignWord{"scheinwerfer", "fixture"},
+    ForeignWord{"projecteur", "fixture"},
+    ForeignWord{"luminaria", "fixture"},
+    ForeignWord{"l\xC3\xA1mpara", "fixture"},
+    ForeignWord{"lampada", "fixture"},
+    ForeignWord{"\xE7\x81\xAF\xE5\x85\xB7", "fixture"},  // togu
     ForeignWord{"datum", "date"},
     ForeignWord{"uhrzeit", "time"},
     ForeignWord{"zeit", "time"},

@@ -34,6 +34,7 @@ enum class CsvQuantity {
   kDate,       // beside a time of its own (csv_table.h)
   kTimestamp,  // a time where every cell is one (csv_table.h)
   kLamp,
+  kFixture,  // the light's name where no other column is (csv_table.h)
   kShadowCard,
   kState,         // a control of the lamp, its name in series
   kDimmerUnsaid,  // the dimmer, in percent unless no value is above 1 (csv_table.h)

@@ -185,6 +185,20 @@ void SettleTimes(CsvTable& table) {
   }
 }
 
+// A column of fixtures names the lights where it is the only one that does; beside another it is
+// what they are, and nothing of a reading.
+void SettleFixtures(CsvTable& table) {
+  const auto holds = [](CsvQuantity quantity) {
+    return [quantity](const CsvColumn& column) { return column.quantity == quantity; };
+  };
+  const bool only = std::ranges::none_of(table.columns, holds(CsvQuantity::kLight)) &&
+                    std::ranges::count_if(table.columns, holds(CsvQuantity::kFixture)) == 1;
+  for (CsvColumn& column : table.columns) {
+    if (column.quantity != CsvQuantity::kFixture) continue;
+    column.quantity = only ? CsvQuantity::kLight : CsvQuantity::kUnknown;
+  }
+}
+
 // A column named lamp is its name where none of its cells says on or off.
 void SettleLamp(CsvTable& table) {
   const std::size_t lamp = ColumnOf(table, CsvQuantity::kLamp);
@@ -209,6 +223,7 @@ Result<void> SettleByCells(CsvTable& table) {
   };
   SettleTimes(table);
   SettleLamp(table);
+  SettleFixtures(table);
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     CsvColumn& column = table.columns[i];
     if (column.quantity != CsvQuantity::kDimmerUnsaid) continue;
@@ -229,7 +244,7 @@ bool IsWord(CsvQuantity quantity) {
          quantity == CsvQuantity::kTime || quantity == CsvQuantity::kLamp ||
          quantity == CsvQuantity::kShadowCard || quantity == CsvQuantity::kState ||
          quantity == CsvQuantity::kTimestamp || quantity == CsvQuantity::kDimmerUnsaid ||
-         quantity == CsvQuantity::kDate;
+         quantity == CsvQuantity::kDate || quantity == CsvQuantity::kFixture;
 }
 
 bool IsLeftOut(CsvQuantity quantity) {

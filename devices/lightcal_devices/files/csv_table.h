@@ -40,10 +40,10 @@ struct CsvTable {
 // Whether the first line that is no comment names at least one quantity.
 [[nodiscard]] bool IsTableUnderHeader(std::string_view text);
 
-// Of the columns that come out, none is kTimestamp or kDimmerUnsaid; a date stands with its time,
-// and a column lamp that holds no on or off is the light's name. Refused: no_rows, bad_row (more
-// cells than columns, naming the line), units_ambiguous (a dimmer that may be parts of 1),
-// decimals_ambiguous (table_notation.h).
+// Of the columns that come out, none is kTimestamp, kDimmerUnsaid or kFixture; a date stands with
+// its time, and a column lamp that holds no on or off is the light's name, or the one of fixtures.
+// Refused: no_rows, bad_row (more cells than columns, naming the line), units_ambiguous (a dimmer
+// that may be parts of 1), decimals_ambiguous (table_notation.h).
 [[nodiscard]] Result<CsvTable> TableUnderHeader(std::string_view text, std::string_view name,
                                                 DecimalSign decimals);
 
