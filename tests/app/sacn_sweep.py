@@ -53,7 +53,8 @@ class Fixture:
         self.port, self.tty = self.process.stdout.readline().split()
 
     def packets(self):
-        return [json.loads(line) for line in self.log.read_text(encoding="utf-8").splitlines()]
+        whole = self.log.read_text(encoding="utf-8").split("\n")[:-1]
+        return [json.loads(line) for line in whole]
 
     def stop(self):
         self.process.stdin.close()
@@ -92,6 +93,13 @@ def wait_for(holds, what, seconds=30):
     while not holds():
         assert time.monotonic() < end, "waited in vain for " + what
         time.sleep(0.01)
+
+
+def packets_to_the_end(fixture, before):
+    """Those since then, when the fixture has written down that the stream ended: it does so in its
+    own time."""
+    wait_for(lambda: sum(one["terminated"] for one in fixture.packets()[before:]) >= 3, "its end")
+    return fixture.packets()[before:]
 
 
 def killed_five_times(folder, fixture):
@@ -138,7 +146,7 @@ def interrupted(folder, fixture, number, name):
     sweep.send_signal(number)
     _, err = sweep.communicate(timeout=20)
     assert sweep.returncode != 0 or "goes on" in err, (sweep.returncode, err)
-    packets = fixture.packets()[before:]
+    packets = packets_to_the_end(fixture, before)
     assert [one["terminated"] for one in packets[-3:]] == [True] * 3, packets[-3:]
     assert sum(one["terminated"] for one in packets) == 3
     return packets
@@ -154,7 +162,7 @@ def typed(folder, fixture):
     sweep.stdin.write("1000\n")
     sweep.stdin.flush()
     sweep.communicate(timeout=20)
-    packets = fixture.packets()[before:]
+    packets = packets_to_the_end(fixture, before)
     gaps = [b["at"] - a["at"] for a, b in zip(packets, packets[1:])]
     assert max(gaps) < 1.0, max(gaps)
     assert sum(gaps) > 3.0
