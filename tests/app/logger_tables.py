@@ -80,6 +80,8 @@ for header in ("fixture", "Luminaire", "Leuchte", "Lamp name"):
     # Two lamps' readings are never one lamp's.
     _, said = imported("fixtures", f"{header},distance_m,Lux\nkey,0.5,400\nfill,1,100\n", code=3)
     assert "fill: the session has no such light" in said, said
+_, said = imported("fixtures", "fixture,Leuchte,distance_m,Lux\nkey,a,0.5,400\nkey,b,1,100\n", code=3)
+assert "fixture and Leuchte both give the same quantity" in said, said
 # Beside the light's name it is what the light is.
 rows, said = imported("fixtures", "light,fixture,distance_m,Lux\nkey,PAR 64,0.5,400\nkey,PAR 64,1,100\n")
 assert len(rows) == 2 and "column fixture" in said, said

@@ -185,20 +185,6 @@ void SettleTimes(CsvTable& table) {
   }
 }
 
-// A column of fixtures names the lights where it is the only one that does; beside another it is
-// what they are, and nothing of a reading.
-void SettleFixtures(CsvTable& table) {
-  const auto holds = [](CsvQuantity quantity) {
-    return [quantity](const CsvColumn& column) { return column.quantity == quantity; };
-  };
-  const bool only = std::ranges::none_of(table.columns, holds(CsvQuantity::kLight)) &&
-                    std::ranges::count_if(table.columns, holds(CsvQuantity::kFixture)) == 1;
-  for (CsvColumn& column : table.columns) {
-    if (column.quantity != CsvQuantity::kFixture) continue;
-    column.quantity = only ? CsvQuantity::kLight : CsvQuantity::kUnknown;
-  }
-}
-
 // A column named lamp is its name where none of its cells says on or off.
 void SettleLamp(CsvTable& table) {
   const std::size_t lamp = ColumnOf(table, CsvQuantity::kLamp);
@@ -210,6 +196,16 @@ void SettleLamp(CsvTable& table) {
     return std::ranges::find(kStates, cell) != kStates.end();
   });
   if (!states) table.columns[lamp].quantity = CsvQuantity::kLight;
+}
+
+// A column of fixtures names the lights where no other does; beside another it is what they are,
+// and nothing of a reading.
+void SettleFixtures(CsvTable& table) {
+  const bool named = ColumnOf(table, CsvQuantity::kLight) < table.columns.size();
+  for (CsvColumn& column : table.columns) {
+    if (column.quantity != CsvQuantity::kFixture) continue;
+    column.quantity = named ? CsvQuantity::kUnknown : CsvQuantity::kLight;
+  }
 }
 
 // A column named timestamp is the reading's time where every cell tells one and no other column
