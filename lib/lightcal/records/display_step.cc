@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "lightcal/core/units_text.h"
@@ -38,6 +39,8 @@ double DisplayStepOf(const Session& session, const Reading& like) {
     return meter->step->value();
   }
   const std::string& instrument = InstrumentOf(like);
+  const auto whole = session.display_steps.find(instrument);
+  if (whole != session.display_steps.end()) return whole->second.value();
   std::set<double> shown;
   bool lamp_shows_nothing = false;  // a figure too, as nothing behind a card or in the dark is not
   VisitReadings(session, [&](const SessionReading& row) {
@@ -64,6 +67,16 @@ double DisplayStepOf(const Session& session, const Reading& like) {
     if (step > 0.5 * finest) return step * unit;
   }
   return 0.0;
+}
+
+std::map<std::string, Lux> DisplaySteps(const Session& session) {
+  std::map<std::string, Lux> steps;
+  VisitReadings(session, [&](const SessionReading& row) {
+    if (!IsShown(row.reading)) return;
+    const std::string& instrument = InstrumentOf(row.reading);
+    if (!steps.contains(instrument)) steps[instrument] = Lux(DisplayStepOf(session, row.reading));
+  });
+  return steps;
 }
 
 double SigmaOfDisplay(double step) { return step / std::sqrt(12.0); }

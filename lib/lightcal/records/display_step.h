@@ -2,6 +2,9 @@
 // How finely a meter's display shows, as the figures read off it say.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "lightcal/records/session.h"
 
 namespace lightcal {
@@ -12,6 +15,9 @@ namespace lightcal {
 // 0 for what no display showed: a data sheet, a picture, a connected meter (its sigma holds its
 // last digit). [lx]
 [[nodiscard]] double DisplayStepOf(const Session& session, const Reading& like);
+// That of each instrument that showed a figure, by InstrumentOf: for Session::display_steps of a
+// part.
+[[nodiscard]] std::map<std::string, Lux> DisplaySteps(const Session& session);
 
 // From so many steps on a reading's repeatability, a hundredth unless stated, holds its last digit.
 inline constexpr double kStepsEnough = 20.0;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -136,6 +137,9 @@ struct Session {
   CameraDescription camera;
   std::vector<CameraFramesDescription> camera_frames;
   std::vector<std::string> input_files;  // what was read, for provenance, in reading order
+  // Of a session that holds a part of another's readings: how finely each instrument's display
+  // shows, as all of them tell, by InstrumentOf. See DisplayStepOf.
+  std::map<std::string, Lux> display_steps{};
 };
 
 // The sigma a reading carries: its own, its meter's, the data sheet's, or the unnamed meter's.

@@ -27,6 +27,7 @@ Result<Session> AloneIn(const Session& session, const std::string& light) {
   alone.surroundings = session.surroundings;
   alone.haze_per_metre = session.haze_per_metre;
   alone.meters = session.meters;
+  alone.display_steps = DisplaySteps(session);
   alone.lights = {*found};
   for (const SessionReading& row : session.readings) {
     if (row.reading.light == light) alone.readings.push_back(Colorless(row));

@@ -7,6 +7,7 @@
 
 #include "lightcal/fit/model/fill_light.h"
 #include "lightcal/fit/states/ln_of.h"
+#include "lightcal/records/display_step.h"
 
 namespace lightcal::fit {
 namespace {
@@ -40,6 +41,7 @@ bool TellsGeometry(const Session& part, const std::string& light) {
 
 Session WithoutReadings(const Session& session) {
   Session out = session;
+  out.display_steps = DisplaySteps(session);
   out.readings.clear();
   out.state_readings.clear();
   return out;
@@ -115,6 +117,7 @@ GeometryParts SplitGeometries(const Session& session, const LightDescription& li
   }
   if (parts.others.empty()) return parts;
   parts.main = session;
+  parts.main.display_steps = DisplaySteps(session);
   std::erase_if(parts.main.state_readings, [&](const SessionReading& row) {
     return own(row) && std::ranges::any_of(told, [&](const FixtureState& one) {
              return SameGeometry(one, row.reading.state);
