@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <thread>
+#include <utility>
 
 #include "lightcal/core/parallel.h"
 #include "lightcal/fit/states/ln_of.h"
@@ -117,6 +119,7 @@ LampSettings::LampSettings(const SettableLamp& lamp) : lamp_(lamp) {
     AddGrid(full);
     return;
   }
+  answers_ = std::make_unique<StateAnswers>(*lamp.light);
   for (const MeasuredState& state : lamp.light->states) {
     if (auto one = At(state.state)) read_.push_back(*std::move(one));
   }
@@ -132,9 +135,9 @@ LampSettings::LampSettings(const SettableLamp& lamp) : lamp_(lamp) {
 }
 
 std::optional<LampSetting> LampSettings::At(const FixtureState& state) const {
-  LampSetting setting;
-  setting.state = state;
   if (lamp_.light == nullptr) {
+    LampSetting setting;
+    setting.state = state;
     const double part = NumberOfControl(state, kDimmerControl).value_or(kFullDimmer) / kFullDimmer;
     setting.point = lamp_.fixed;
     setting.point.level *= part;
@@ -142,10 +145,17 @@ std::optional<LampSetting> LampSettings::At(const FixtureState& state) const {
     if (part < 1.0) setting.basis = StateBasis::kBetween;
     return setting;
   }
-  const auto answer = AnswerState(*lamp_.light, state);
+  return AnsweredBy(*answers_, state);
+}
+
+std::optional<LampSetting> LampSettings::AnsweredBy(StateAnswers& answers,
+                                                    const FixtureState& state) const {
+  const auto answer = answers.At(state);
   if (!answer) return std::nullopt;
   auto point = PointOf(*lamp_.light, lamp_.session, *answer);
   if (!point) return std::nullopt;
+  LampSetting setting;
+  setting.state = state;
   setting.basis = answer->basis;
   setting.point = *std::move(point);
   setting.relative = answer->relative.value;
@@ -195,10 +205,18 @@ void LampSettings::AddGrid(const FixtureState& like) {
     if (a == at.size()) break;
   }
   std::vector<std::optional<LampSetting>> found(grid.size());
-  ParallelFor(static_cast<int>(grid.size()), [&](int i) {
-    const auto k = static_cast<std::size_t>(i);
-    found[k] = At(grid[k]);
-  });
+  if (answers_ == nullptr) {
+    std::ranges::transform(grid, found.begin(), [&](const FixtureState& one) { return At(one); });
+  } else {
+    // Each thread finds the curves once.
+    const std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
+    ParallelFor(static_cast<int>(threads), [&](int i) {
+      StateAnswers answers(*lamp_.light);
+      for (auto k = static_cast<std::size_t>(i); k < grid.size(); k += threads) {
+        found[k] = AnsweredBy(answers, grid[k]);
+      }
+    });
+  }
   for (auto& one : found) {
     if (one) candidates_.push_back(*std::move(one));
   }

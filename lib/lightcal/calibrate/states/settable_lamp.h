@@ -2,14 +2,17 @@
 // A lamp as a function of its labels, for searches.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "lightcal/calibrate/states/match_states.h"
+#include "lightcal/fit/states/state_answer.h"
 
 namespace lightcal {
 
-// What it is at any setting, and where a search may begin.
+// What it is at any setting, and where a search may begin. The lamp's light must outlive it; for
+// one thread at a time.
 class LampSettings {
  public:
   explicit LampSettings(const SettableLamp& lamp);
@@ -29,9 +32,12 @@ class LampSettings {
   [[nodiscard]] std::vector<Axis> AxesAt(const FixtureState& state) const;
 
  private:
+  [[nodiscard]] std::optional<LampSetting> AnsweredBy(StateAnswers& answers,
+                                                      const FixtureState& state) const;
   void AddGrid(const FixtureState& like);
 
   SettableLamp lamp_;
+  std::unique_ptr<StateAnswers> answers_;  // of a lamp with states
   std::vector<LampSetting> read_, candidates_;
 };
 

@@ -124,6 +124,7 @@ void States::KeepNearest() {
   SortByDistance(Full(), kept_.begin());
   SortByDistance(at_, kept_.begin() + static_cast<std::ptrdiff_t>(kNearestToFull));
   kept_.resize(kNearestStates + kNearestToFull);
+  std::ranges::sort(kept_);  // as they were read: the same ones make the same curve
 }
 
 std::vector<double> States::OffsetOf(const MeasuredState& one) const {
