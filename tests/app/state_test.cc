@@ -49,6 +49,16 @@ TEST(StateCommand, EveryStateAnswersWithWhatWasRead) {
   EXPECT_EQ(states, 21);
 }
 
+// Of one place and no dimmer: white, not red, which was read first.
+TEST(StateCommand, ItsIntensityIsThatOfItsBrightestState) {
+  const TempDir folder;
+  const std::string session =
+      folder.Write("session.toml", DarkSession() + StateRow(2.0, 210.0, "red = 100, white = 0") +
+                                       StateRow(2.0, 900.0, "red = 0, white = 100"));
+  const json light = LightcalJson("fit", {session})["lights"][0];
+  EXPECT_NEAR(double(light["intensity_cd"]["value"]), 3600.0, 200.0);
+}
+
 TEST(StateCommand, ALabelIsNotLight) {
   const json five =
       LightcalJson("state", {Panels(), "--light", "panel", "--at", "dimmer=5,cct_K=4000"});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <ranges>
 #include <set>
 #include <string>
 #include <utility>
@@ -17,7 +18,8 @@ bool LampIsOn(const Reading& reading) { return reading.lamp == LampState::kOn; }
 // What was read of one lamp at one state.
 struct StateRows {
   const FixtureState* state = nullptr;
-  std::set<long long> places;  // distances in half millimetres, positions by their sum
+  std::set<long long> places{};  // distances in half millimetres, positions by their sum
+  double brightest = 0.0;        // E d^2 of its readings, E where no distance is known
 };
 
 long long PlaceOf(const Reading& reading) {
@@ -27,6 +29,12 @@ long long PlaceOf(const Reading& reading) {
   return std::llround(2000.0 * (p[0] + 31.0 * p[1] + 997.0 * p[2]));
 }
 
+double BrightnessOf(const Reading& reading) {
+  const double e = reading.illuminance.value_or(Lux(0.0)).value();
+  const double d = reading.distance.value_or(Metres(1.0)).value();
+  return e * d * d;
+}
+
 std::vector<StateRows> StatesOf(const Session& session, std::string_view light) {
   std::vector<StateRows> states;
   for (const SessionReading& row : session.readings) {
@@ -34,9 +42,11 @@ std::vector<StateRows> StatesOf(const Session& session, std::string_view light) 
     if (reading.light != light || reading.state.empty() || !LampIsOn(reading)) continue;
     auto known = std::ranges::find_if(
         states, [&](const StateRows& one) { return SameState(*one.state, reading.state); });
-    if (known == states.end()) known = states.insert(states.end(), StateRows{&reading.state, {}});
+    if (known == states.end()) known = states.insert(states.end(), StateRows{&reading.state});
     const bool bright = reading.illuminance || !reading.spectrum_file.empty();
-    if (bright && !reading.shadow_card) known->places.insert(PlaceOf(reading));
+    if (!bright || reading.shadow_card) continue;
+    known->places.insert(PlaceOf(reading));
+    known->brightest = std::max(known->brightest, BrightnessOf(reading));
   }
   return states;
 }
@@ -82,8 +92,13 @@ FixtureState ReferenceState(const Session& session, std::string_view light) {
   const auto merit = [](const StateRows& one) {
     return std::pair(one.places.size(), NumberOfControl(*one.state, kDimmerControl).value_or(0.0));
   };
-  const auto best = std::ranges::max_element(states, {}, merit);
-  return *best->state;
+  const auto most = std::ranges::max(states | std::views::transform(merit));
+  auto best = states | std::views::filter([&](const StateRows& one) { return merit(one) == most; });
+  const auto brightest = std::ranges::max(best | std::views::transform(&StateRows::brightest));
+  // Less than half is one of its emitters alone.
+  return *std::ranges::find_if(best, [&](const StateRows& one) {
+            return one.brightest >= 0.5 * brightest;
+          })->state;
 }
 
 bool HoldsAt(const StateDescription& one, const FixtureState& state) {
