@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <string_view>
 
 #include "command_tree.h"
 #include "lightcal/core/nearest_word.h"
@@ -31,9 +33,31 @@ Error Usage(std::string subject, std::string message) {
   return WrongUsage(std::move(subject), std::move(message)).value();
 }
 
-// An option cut short ("--dist") means the one that begins so; else the nearest by its letters.
+// What commands, and people, call one thing by.
+constexpr std::array<std::array<std::string_view, 5>, 6> kOneThing = {{
+    {"--light", "--lamp", "--lights", "--name"},
+    {"--to", "--engine", "--target", "--format"},
+    {"--output", "--out", "--file", "--save"},
+    {"--cct", "--kelvin", "--temperature", "--color-temperature", "--colour-temperature"},
+    {"--accuracy", "--sigma", "--uncertainty", "--error"},
+    {"--lux", "--illuminance", "--lx"},
+}};
+
+// What the command calls that thing, "" where it has no name for it.
+std::string OtherName(const std::string& typed, const std::vector<std::string>& names) {
+  for (const auto& thing : kOneThing) {
+    if (std::ranges::find(thing, typed) == thing.end()) continue;
+    const auto here = std::ranges::find_first_of(thing, names);
+    if (here != thing.end()) return std::string(*here);
+  }
+  return "";
+}
+
+// An option by another name means the one it has here; one cut short ("--dist") the one that begins
+// so; else the nearest by its letters.
 std::string NearestOption(const std::string& typed, const std::vector<std::string>& names) {
   if (typed.size() <= 2) return "";  // "-x" is as near to every other letter
+  if (std::string other = OtherName(typed, names); !other.empty()) return other;
   const auto begins = [&](const std::string& name) { return name.starts_with(typed); };
   const auto first = std::ranges::find_if(names, begins);
   if (first != names.end() && std::ranges::count_if(names, begins) == 1) return *first;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Every command, option and word of lightcal, mistyped by two swapped letters: exit 2, and the
-message names what was meant.
+"""Every command, option and word of lightcal, mistyped by two swapped letters, and options by the
+name they have elsewhere: exit 2, and the message names what was meant.
 
     suggestions.py LIGHTCAL_BINARY
 """
@@ -73,8 +73,15 @@ def problem_of(line):
     return None
 
 
+# What another command, or another program, calls it.
+OTHER_NAMES = ((["new"], "--light", "--lamp"), (["read"], "--lamp", "--light"), (["fit"], "--light", "--lights"),
+               (["quick"], "--kelvin", "--cct"), (["fit"], "--save", "--output"), (["export"], "--target", "--to"),
+               (["read"], "--illuminance", "--lux"), (["new"], "--sigma", "--accuracy"))
+
+
 def main():
     lines = list(lines_to_try())
+    lines += [([*path, typed], meant, typed) for path, typed, meant in OTHER_NAMES]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         problems = [problem for problem in pool.map(problem_of, lines) if problem]
     if len(lines) < 250:
