@@ -188,6 +188,7 @@ class Planner {
 
   // Fills what the file leaves open, from the command line.
   Result<void> Complete(Reading& reading, const std::string& path) {
+    if (auto known = CheckLightOfFile(reading.light); !known) return known;
     if (reading.light.empty()) reading.light = settings_.light;
     if (reading.light.empty() && session_.lights.size() == 1) {
       reading.light = session_.lights.front().name;
@@ -205,6 +206,19 @@ class Planner {
     if (auto named = CheckNames(session_, reading.light, reading.meter); !named) return named;
     if (auto fits = CheckState(session_, reading); !fits) return fits;
     return CheckDistance(reading, path);
+  }
+
+  // A column of fixtures may hold what the lamp is, not which it is.
+  Result<void> CheckLightOfFile(const std::string& named) const {
+    const bool one = !settings_.light.empty() || session_.lights.size() == 1;
+    if (named.empty() || !one || FindLight(session_, named) != nullptr) return {};
+    const std::string& meant =
+        settings_.light.empty() ? session_.lights.front().name : settings_.light;
+    return Refused("unknown_light", named,
+                   "the session has no such light" + DidYouMean(named, session_.lights) +
+                       "; if the column says what the lamp is and not which, leave it out, for "
+                       "instance --columns -,distance_m,illuminance_lx: the rows are then of " +
+                       meant);
   }
 
   Result<void> CheckDistance(Reading& reading, const std::string& path) const {

@@ -80,6 +80,12 @@ for header in ("fixture", "Luminaire", "Leuchte", "Lamp name"):
     # Two lamps' readings are never one lamp's.
     _, said = imported("fixtures", f"{header},distance_m,Lux\nkey,0.5,400\nfill,1,100\n", code=3)
     assert "fill: the session has no such light" in said, said
+# One that holds what the lamp is: how to leave it out is said, and does it.
+model = "fixture,distance_m,Lux\nPAR 64,0.5,400\nPAR 64,1,100\n"
+_, said = imported("fixtures", model, code=3)
+assert "leave it out, for instance --columns -,distance_m" in said and "are then of key" in said, said
+run("import", HOME / "fixtures.csv", "-s", HOME / "fixtures", "--light", "key", "--columns", "-,distance_m,illuminance_lx")
+assert len((HOME / "fixtures" / "readings.jsonl").read_text().splitlines()) == 2
 _, said = imported("fixtures", "fixture,Leuchte,distance_m,Lux\nkey,a,0.5,400\nkey,b,1,100\n", code=3)
 assert "fixture and Leuchte both give the same quantity" in said, said
 # Beside the light's name it is what the light is.

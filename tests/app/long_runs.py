@@ -110,5 +110,5 @@ def many_lamps(name, count):
 samples_of_many_readings_cost_as_those_of_their_means()
 a_signal_ends_a_study_at_once()
 a_terminal_is_told_how_far(["fit", "long", "--monte-carlo", "-o", "l.json"], "sampling intervals")
-many_lamps("set.json", 3000)
+many_lamps("set.json", 12000)
 a_terminal_is_told_how_far(["export", "set.json", "-o", "presets"], "writing presets")
