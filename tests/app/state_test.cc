@@ -52,11 +52,29 @@ TEST(StateCommand, EveryStateAnswersWithWhatWasRead) {
 // Of one place and no dimmer: white, not red, which was read first.
 TEST(StateCommand, ItsIntensityIsThatOfItsBrightestState) {
   const TempDir folder;
-  const std::string session =
-      folder.Write("session.toml", DarkSession() + StateRow(2.0, 210.0, "red = 100, white = 0") +
-                                       StateRow(2.0, 900.0, "red = 0, white = 100"));
+  const std::string session = folder.Write(
+      "session.toml", DarkSession() + StateRow(2.0, 210.0, "red = 100, green = 0, white = 0") +
+                          StateRow(2.0, 480.0, "red = 0, green = 100, white = 0") +
+                          StateRow(2.0, 900.0, "red = 0, green = 0, white = 100"));
   const json light = LightcalJson("fit", {session})["lights"][0];
   EXPECT_NEAR(double(light["intensity_cd"]["value"]), 3600.0, 200.0);
+}
+
+// One warning a cause: three emitters that no white is near.
+TEST(StateCommand, StatesThatHaveNoColourTemperatureAreNamedTogether) {
+  const TempDir folder;
+  const auto color = [](const std::string& xy) { return "xy = [" + xy + "]\n"; };
+  const std::string session = folder.Write(
+      "session.toml",
+      DarkSession() + StateRow(2.0, 210.0, "red = 100, green = 0, white = 0", color("0.70, 0.30")) +
+          StateRow(2.0, 480.0, "red = 0, green = 100, white = 0", color("0.17, 0.70")) +
+          StateRow(2.0, 900.0, "red = 0, green = 0, white = 100", color("0.34, 0.35")));
+  const json document = LightcalJson("fit", {session});
+  const auto withheld = std::ranges::count(document["warnings"], "cct_withheld",
+                                           [](const json& one) { return one["code"]; });
+  EXPECT_EQ(withheld, 1) << document["warnings"];
+  EXPECT_THAT(document["warnings"].dump(),
+              HasSubstr("at green=0, red=100, white=0; green=100, red=0, white=0: no white"));
 }
 
 TEST(StateCommand, ALabelIsNotLight) {

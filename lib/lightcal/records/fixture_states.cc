@@ -95,9 +95,9 @@ FixtureState ReferenceState(const Session& session, std::string_view light) {
   const auto most = std::ranges::max(states | std::views::transform(merit));
   auto best = states | std::views::filter([&](const StateRows& one) { return merit(one) == most; });
   const auto brightest = std::ranges::max(best | std::views::transform(&StateRows::brightest));
-  // Less than half is one of its emitters alone.
+  // One a tenth darker may be a single emitter; nearer ones differ by how the meter repeats, too.
   return *std::ranges::find_if(best, [&](const StateRows& one) {
-            return one.brightest >= 0.5 * brightest;
+            return one.brightest >= 0.9 * brightest;
           })->state;
 }
 

@@ -169,7 +169,7 @@ void SpreadLitReadings(Session& session);
 
 // The state that a lamp with controls is fitted at: of those its readings name, the one read at
 // most distances, of these the one of the highest dimmer, of these the first that gives at least
-// half the light (E d^2) of the brightest. Empty = it has no controls.
+// nine tenths of the brightest's light (E d^2). Empty = it has no controls.
 [[nodiscard]] FixtureState ReferenceState(const Session& session, std::string_view light);
 // Whether a description holds of a state: each of its controls says the same there.
 [[nodiscard]] bool HoldsAt(const StateDescription& one, const FixtureState& state);

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "lightcal/core/joined.h"
 #include "lightcal/core/numbers_text.h"
 #include "lightcal/fit/colour/fit_color.h"
 #include "lightcal/fit/model/observations.h"
@@ -212,6 +215,23 @@ std::optional<Uncertain> Times(const std::optional<Uncertain>& reference, double
   return scaled;
 }
 
+// What was said of the states' colours; of those that no white is near, once for all.
+void WarnOfColors(const FittedLight& light, Warnings said, Warnings& warnings) {
+  const auto withheld = [](const Warning& one) { return one.code == "cct_withheld"; };
+  if (std::erase_if(said, withheld) > 0) {
+    std::vector<const MeasuredState*> without;
+    for (const MeasuredState& one : light.states) {
+      const bool reference = SameState(one.state, light.state);  // said with the light's own
+      if (!reference && one.color.xy && !one.color.cct_K) without.push_back(&one);
+    }
+    const auto name = [](const MeasuredState* one) { return StateText(one->state); };
+    warnings.push_back({"cct_withheld", light.name,
+                        "no colour temperature is given at " + Joined(without, "; ", name) +
+                            ": no white is near its colour there; use xy"});
+  }
+  std::ranges::move(said, std::back_inserter(warnings));
+}
+
 // Said once: the worst of the states that were read where the reference was not.
 void WarnOfPredictedReference(const FittedLight& light, Warnings& warnings) {
   constexpr double kWorthSaying = 0.02;
@@ -250,6 +270,7 @@ void MeasureStates(const Session& session, const LightDescription& description,
   const Measuring measuring(session, description, light);
   const OtherLight others(session, description, light);
   std::vector<MeasuredState> out;
+  Warnings colors;
   bool other_geometry = false;
   for (const StateReadings& state : measuring.states()) {
     const bool reference = SameState(state.state, light.state);
@@ -286,7 +307,7 @@ void MeasureStates(const Session& session, const LightDescription& description,
     one.relative = reference ? Uncertain{1.0, 0.0, {}, {}} : UncertainFromLog(ln, sd);
     one.intensity_cd = Times(light.intensity_cd, ln, sd);
     one.illuminance_lx = Times(light.illuminance_lx, ln, sd);
-    one.color = reference ? light.color : ColorOf(state, description, others, cct_method, warnings);
+    one.color = reference ? light.color : ColorOf(state, description, others, cct_method, colors);
     one.readings = ratio->readings;
     other_geometry = other_geometry || !SameGeometry(state.state, light.state);
     if (reference) {
@@ -296,6 +317,7 @@ void MeasureStates(const Session& session, const LightDescription& description,
     }
   }
   light.states = std::move(out);
+  WarnOfColors(light, std::move(colors), warnings);
   WarnOfPredictedReference(light, warnings);
   WarnOfDoubtedStates(light, warnings);
   if (other_geometry && light.intensity_cd) {
