@@ -313,6 +313,11 @@ class Interview {
     session_.light.flux = box.light.flux;
     session_.light.beam = box.light.beam;
     session_.cct = box.cct;
+    // What shines into an angle is no point, whoever takes the first kind that is offered.
+    const bool bulb = session_.light.fixture == Fixture::kBulb;
+    if (box.light.beam && session_.light.kind == LightKind::kPoint && !bulb && !flags_.kind) {
+      session_.light.kind = LightKind::kSpot;
+    }
     return {};
   }
 

@@ -187,6 +187,30 @@ TEST(NewSession, HowTheLampIsBuiltIsWritten) {
   EXPECT_THAT(wrong.err, HasSubstr("fresnel"));
 }
 
+// A reflector with an angle on its box is no point to any engine; a bulb is, and who says so.
+TEST(NewSession, ABeamOnTheBoxMakesASpot) {
+  const NoUsb machine;
+  const TempDir home;
+  int at = 0;
+  const auto begun = [&](std::vector<std::string> words) {
+    const std::string session = home.path() + "/s" + std::to_string(++at);
+    words.insert(words.begin(), {"new", session, "--yes", "--box", "30W 36deg"});
+    EXPECT_EQ(RunLightcal(words).exit_code, 0);
+    EXPECT_EQ(RunLightcal({"read", "-s", session, "--lux", "600", "--distance", "5m"}).exit_code,
+              0);
+    return session;
+  };
+  const std::string reflector = begun({"--fixture", "reflector"});
+  EXPECT_THAT(ReadFile(reflector + "/session.toml"), HasSubstr("kind = \"spot\""));
+  EXPECT_THAT(RunLightcal({"fit", reflector}).err, Not(HasSubstr("shines all round")));
+  const std::string bulb = begun({"--fixture", "bulb"});
+  EXPECT_THAT(ReadFile(bulb + "/session.toml"), HasSubstr("kind = \"point\""));
+  const std::string point = begun({"--kind", "point"});
+  EXPECT_THAT(ReadFile(point + "/session.toml"), HasSubstr("kind = \"point\""));
+  EXPECT_THAT(RunLightcal({"fit", point}).err,
+              HasSubstr("its beam angle is stated, 36.0 degrees, and its kind is a point"));
+}
+
 TEST(NewSession, ThePlanExpectsWhatTheBoxSays) {
   const TempDir home;
   const std::string session = home.path() + "/s";

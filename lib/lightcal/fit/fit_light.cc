@@ -176,7 +176,16 @@ Result<void> AddGeometries(const fit::GeometryParts& parts, const LightDescripti
 // A point shines all round: in every engine, in flux_lm and off its axis.
 void WarnOfOneSidedPoint(const LightDescription& light, const FittedLight& fitted,
                          Warnings& warnings) {
-  if (fitted.kind != LightKind::kPoint || !light.fixture || !ShinesOneWay(*light.fixture)) return;
+  if (fitted.kind != LightKind::kPoint) return;
+  if (light.beam && light.fixture != Fixture::kBulb) {
+    warnings.push_back({"one_sided_point", light.name,
+                        "its beam angle is stated, " +
+                            RoundedText(DegreesFromRadians(*light.beam), 3) +
+                            " degrees, and its kind is a point, which shines all round: make it a "
+                            "spot, or no engine gets that beam"});
+    return;
+  }
+  if (!light.fixture || !ShinesOneWay(*light.fixture)) return;
   const bool beam = light.fixture == Fixture::kReflector || light.fixture == Fixture::kFresnel;
   warnings.push_back(
       {"one_sided_point", light.name,
