@@ -14,6 +14,7 @@
 #include "lightcal/core/units.h"
 #include "lightcal/core/units_text.h"
 #include "lightcal/fit/model/hypotheses.h"
+#include "lightcal/fit/model/row_reports.h"
 #include "lightcal/fit/model/starts.h"
 
 namespace lightcal::fit {
@@ -191,6 +192,7 @@ std::optional<std::string> Beam(const std::vector<ReadAt>& places, const Prepare
 std::string CauseOf(const std::vector<ReadAt>& places, bool at_bound, const Estimation& all,
                     const Prepared& prepared, const Observations& observations) {
   if (auto beam = Beam(places, prepared, observations)) return *beam;
+  if (auto apart = FirstUnrepeated(observations)) return *apart;
   if (auto one = OneReading(all, prepared, observations)) return *one;
   if (at_bound) {
     return "they fall faster with distance than any lamp's light: do the distances start where its "

@@ -84,7 +84,30 @@ std::string WhatItShowed(const Observation& row) {
   return RoundedText(row.raw_lx, 4) + " less " + RoundedText(row.raw_lx - row.measured_lx, 4);
 }
 
+std::string SayUnrepeated(const std::vector<const Observation*>& there) {
+  return "at " + RoundedText(there.front()->distance_m, 4) + " m the same meter read " +
+         Joined(there, ", ", [](const Observation* o) { return WhatItShowed(*o); }) +
+         " lx (readings " +
+         Joined(there, ", ", [](const Observation* o) { return std::to_string(o->index); }) +
+         "): farther apart than it repeats. The lamp was still warming up, its battery or its "
+         "mains "
+         "sank, or the head was held otherwise: let it burn ten minutes and read again";
+}
+
 }  // namespace
+
+std::optional<std::string> FirstUnrepeated(const Observations& observations) {
+  constexpr double kMostOfOneLamp = 1.3;  // that it rises as it warms up
+  for (const Observation& one : observations.rows) {
+    if (!one.lit) continue;
+    const auto there = Unrepeated(observations.rows, one);
+    if (there.empty()) continue;
+    const auto [least, most] =
+        std::ranges::minmax(there, {}, [](const Observation* o) { return o->measured_lx; });
+    if (most->measured_lx < kMostOfOneLamp * least->measured_lx) return SayUnrepeated(there);
+  }
+  return std::nullopt;
+}
 
 void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
                 const Observations& observations, const std::string& light, Warnings& warnings) {
@@ -118,15 +141,7 @@ void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
     const auto there = Unrepeated(observations.rows, one);
     if (there.empty()) return false;
     told.insert(told.end(), there.begin(), there.end());
-    warnings.push_back(
-        {"suspicious_reading", light,
-         "at " + RoundedText(one.distance_m, 4) + " m the same meter read " +
-             Joined(there, ", ", [](const Observation* o) { return WhatItShowed(*o); }) +
-             " lx (readings " +
-             Joined(there, ", ", [](const Observation* o) { return std::to_string(o->index); }) +
-             "): farther apart than it repeats. The lamp was still warming up, its battery or "
-             "its mains sank, or the head was held otherwise: let it burn ten minutes and read "
-             "again"});
+    warnings.push_back({"suspicious_reading", light, SayUnrepeated(there)});
     return true;
   };
   for (const int row : estimate.suspicious) {

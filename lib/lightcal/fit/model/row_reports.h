@@ -2,13 +2,19 @@
 // What an estimate says of its readings one by one, and of itself.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lightcal/fit/estimate_light.h"
+#include "lightcal/fit/model/observations.h"
 #include "lightcal/fit/model/prepare.h"
 #include "lightcal/fit/model/robust.h"
 
 namespace lightcal::fit {
+
+// What is to be said of the first place that one meter read twice with more between than it
+// repeats, though no more than one lamp's light drifts.
+[[nodiscard]] std::optional<std::string> FirstUnrepeated(const Observations& observations);
 
 // The warnings row_rejected, bimodal and suspicious_reading.
 void WarnOfRows(const RobustEstimate& estimate, const Prepared& prepared,
