@@ -142,5 +142,21 @@ TEST(TypedPlainly, ALibraryIsSearchedByAName) {
   EXPECT_EQ(LightcalJson("lights", {"--library", library, "list", "sun"})["lights"].size(), 0U);
 }
 
+TEST(TypedPlainly, WhatAnIncidentMeterShowsIsAnsweredWithTheLux) {
+  const CliResult quick = RunLightcal({"quick", "EV10@1m"});
+  EXPECT_EQ(quick.exit_code, 2);
+  EXPECT_THAT(quick.err, HasSubstr("2560 lx under its flat receptor"));
+  EXPECT_THAT(RunLightcal({"quick", "f/4@1m"}).err, HasSubstr("set the meter to lux"));
+}
+
+// Not "was it another lamp's?": one place was read twice.
+TEST(TypedPlainly, ALampThatWarmsUpIsNoOtherLamp) {
+  const CliResult quick = RunLightcal(
+      {"quick", "421lx@0.5m", "130.7lx@1m", "51.7lx@2m", "474lx@0.5m", "--fixture", "bulb"});
+  EXPECT_EQ(quick.exit_code, 3);
+  EXPECT_THAT(quick.err, HasSubstr("421.0, 474.0 lx (readings 0, 3)"));
+  EXPECT_THAT(quick.err, HasSubstr("warming up"));
+}
+
 }  // namespace
 }  // namespace lightcal::test

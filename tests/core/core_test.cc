@@ -29,6 +29,19 @@ TEST(UnitsText, AFootcandleIsALumenPerSquareFoot) {
   EXPECT_DOUBLE_EQ(ParseIlluminance("192lx")->value(), 192.0);
 }
 
+// 2.5 lx x 2^10 under C = 250, 3.4 under C = 340 (ISO 2720).
+TEST(UnitsText, AnIncidentMetersExposureValueIsTwoIlluminances) {
+  for (const char* ev : {"EV10", "10EV", "ev 10", "10 EV"}) {
+    const auto refused = ParseIlluminance(ev);
+    ASSERT_FALSE(refused.has_value()) << ev;
+    EXPECT_NE(refused.error().message.find("2560 lx under its flat receptor"), std::string::npos)
+        << refused.error().message;
+    EXPECT_NE(refused.error().message.find("3482 lx under its dome"), std::string::npos);
+  }
+  EXPECT_NE(ParseIlluminance("f/5.6").error().message.find("a shutter and an ISO"),
+            std::string::npos);
+}
+
 TEST(UnitsText, TimesMayBeFractions) {
   EXPECT_DOUBLE_EQ(ParseDuration("1/60")->value(), 1.0 / 60.0);
   EXPECT_DOUBLE_EQ(ParseDuration("60s")->value(), 60.0);

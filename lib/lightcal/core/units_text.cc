@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <initializer_list>
 #include <numbers>
 #include <optional>
@@ -144,6 +145,35 @@ std::optional<double> FeetAndInches(std::string_view written) {
   return (minus ? -inches : inches) * kMetresPerInch;
 }
 
+// "EV10", "10.3EV", "f/5.6": what an incident meter shows for cameras. E = C 2^EV / 100 at ISO 100,
+// and C (ISO 2720) is the receptor's: about 250 flat, 340 under a dome.
+std::optional<Error> IncidentExposure(std::string_view written) {
+  constexpr double kFlat = 2.5, kDome = 3.4;  // C / 100 [lx]
+  const std::string lower = LowerAscii(TrimBlanks(written));
+  std::string_view text = lower;
+  if (text.starts_with("f/") && ParseNumber(TrimBlanks(text.substr(2)))) {
+    return WrongUsage(std::string(written),
+                      "a stop goes with a shutter and an ISO, and says no light alone: set the "
+                      "meter to lux or footcandles")
+        .value();
+  }
+  bool is_ev = TakeWord(text, {"ev"});
+  if (!is_ev && text.ends_with("ev")) {
+    is_ev = true;
+    text.remove_suffix(2);
+  }
+  const auto ev = ParseNumber(TrimBlanks(text));
+  if (!is_ev || !ev || !(std::abs(*ev) < 40.0)) return std::nullopt;
+  return WrongUsage(std::string(written),
+                    "an incident meter's EV at ISO 100 is " +
+                        RoundedText(kFlat * std::exp2(*ev), 3) +
+                        " lx under its flat receptor (2.5 lx x 2^EV) and about " +
+                        RoundedText(kDome * std::exp2(*ev), 3) +
+                        " lx under its dome: type the lux of yours, flat and facing the lamp, or "
+                        "set the meter to lux or footcandles")
+      .value();
+}
+
 template <class Unit>
 Result<Unit> Wrap(Result<double>&& number) {
   if (!number) return Propagate(std::move(number));
@@ -202,6 +232,7 @@ Result<Metres> ParseLength(std::string_view text) {
   return Wrap<Metres>(std::move(length));
 }
 Result<Lux> ParseIlluminance(std::string_view text) {
+  if (auto exposure = IncidentExposure(text)) return tl::unexpected(*std::move(exposure));
   return Wrap<Lux>(ParseWith(text, kIlluminanceUnits, "an illuminance"));
 }
 Result<Seconds> ParseDuration(std::string_view text) {
