@@ -74,6 +74,9 @@ assert len(rows) == 2 and "left out" in said and "time" in said, said
 # ---- names: a lamp's own, and other languages' ----
 rows, said = imported("lamps", "lamp,distance_m,Lux\nkey,0.5,400\nkey,1,100\n")
 assert [row["light"] for row in rows] == ["key", "key"] and not said.count("warning"), (rows, said)
+for header in ("Reading (lux)", "measured lx", "Reading [lx]"):
+    rows, said = imported("readings", f"distance_m,{header}\n0.5,400\n1,100\n")
+    assert [row["illuminance_lx"] for row in rows] == [400, 100], (header, rows, said)
 for header in ("fixture", "Luminaire", "Leuchte", "Lamp name"):
     rows, said = imported("fixtures", f"{header},distance_m,Lux\nkey,0.5,400\nkey,1,100\n")
     assert [row["light"] for row in rows] == ["key", "key"] and "warning" not in said, (rows, said)
