@@ -289,5 +289,16 @@ TEST(QuickPlan, AskedWrongItSaysWhatToWrite) {
   EXPECT_EQ(RunLightcal({"quick", "--plan", "--plot", "minutes.gif"}).exit_code, 2);
 }
 
+// The cone nearest to this beam has no even middle: 0, and not 9.3e-08.
+TEST(Quick, AnInnerAngleThatIsNoneIsZero) {
+  const TempDir folder;
+  const std::string out = folder.path() + "/p";
+  ASSERT_EQ(RunLightcal({"quick", "600lx@5m", "--beam", "36", "--to", "gltf", "-o", out}).exit_code,
+            0);
+  const json light =
+      json::parse(ReadFile(out + "/light.gltf"))["extensions"]["KHR_lights_punctual"]["lights"][0];
+  EXPECT_EQ(double(light["spot"]["innerConeAngle"]), 0.0);
+}
+
 }  // namespace
 }  // namespace lightcal::test

@@ -22,6 +22,7 @@ constexpr double kRightAngle = std::numbers::pi / 2.0;
 // cosine's rim.
 constexpr double kWidestPower = 89.0 * kRadiansPerDegree;
 constexpr double kHardShare = 0.9999;  // the inner angle of an edge, over the outer
+constexpr double kNoShare = 1e-4;      // below it no person types an inner angle
 constexpr double kDark = 1e-3;         // of the axial intensity: where a beam ends
 constexpr double kBeyond = 5.0 * kRadiansPerDegree;
 constexpr double kLeastRim = 1e-4;  // Godot's shader takes no smaller u
@@ -82,7 +83,8 @@ ConeTerms TermsAt(EngineConeLaw law, const ConePlace& at) {
   if (law == EngineConeLaw::kPower) {
     return TermsOf(law, 0.0, outer, std::exp(std::clamp(at[1], -1.4, 4.6)));
   }
-  return TermsOf(law, outer * std::clamp(at[1], 0.0, kHardShare), outer, 1.0);
+  const double share = at[1] < kNoShare ? 0.0 : std::min(at[1], kHardShare);
+  return TermsOf(law, outer * share, outer, 1.0);
 }
 
 struct Sample {
