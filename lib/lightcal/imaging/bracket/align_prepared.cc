@@ -92,6 +92,8 @@ Result<void> FindAgain(const BracketMotion& motion, std::span<const double> labe
   if (!recovered) return Propagate(std::move(recovered));
   prepared.response = std::move(recovered->curves);
   merge.power_sd = recovered->exposures.power_sd;
+  merge.power_reach = recovered->exposures.power_reach;
+  prepared.labels_certain = recovered->exposures.certain;
   prepared.label_errors.assign(prepared.frames.size(), 0.0);  // nothing of frames left out
   for (std::size_t k = 0; k < prepared.planned.order.size(); ++k) {
     const std::size_t frame = prepared.planned.order[k];

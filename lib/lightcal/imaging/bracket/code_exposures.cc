@@ -100,12 +100,13 @@ double MisfitOf(const Channels& channels, const CodeSteps& steps,
   constexpr double kLevel = 0.2;          // of ln(step)
   constexpr std::size_t kLevels = 16;     // up to the highest step
   constexpr double kLeastOfLevel = 50.0;  // pixels
+  constexpr double kLeastLnRatio = 0.1;   // of frames whose labels are alike
   double sum = 0.0, all = 0.0;
   for (const auto& channel : channels) {
-    const std::vector<CodePair> pairs = Neighbours(channel, ln_exposure);
-    const Eigen::VectorXd g = CurveOf(pairs, ln_exposure, steps);
-    for (const CodePair& pair : pairs) {
+    const Eigen::VectorXd g = CurveOf(Neighbours(channel, ln_exposure, true), ln_exposure, steps);
+    for (const CodePair& pair : Neighbours(channel, ln_exposure, false)) {
       const double ln_ratio = ln_exposure[pair.second] - ln_exposure[pair.first];
+      const double of = std::max(std::abs(ln_ratio), kLeastLnRatio);
       std::array<double, kLevels> count{}, mean{};
       for (int a = kLowest; a < kCodeSteps; ++a) {
         for (int b = kLowest; b < kCodeSteps; ++b) {
@@ -119,7 +120,7 @@ double MisfitOf(const Channels& channels, const CodeSteps& steps,
       }
       for (std::size_t level = 0; level < kLevels; ++level) {
         if (count[level] < kLeastOfLevel) continue;
-        sum += std::abs(mean[level] / ln_ratio);
+        sum += std::abs(mean[level] / of);
         all += count[level];
       }
     }
@@ -131,6 +132,21 @@ double MisfitOf(const Channels& channels, const CodeSteps& steps,
 double PowerOfLabels(std::span<const double> ln_label) {
   const double apart = ln_label.empty() ? 0.0 : ln_label.back() - ln_label.front();
   return apart == 0.0 ? 0.0 : std::numbers::sqrt2 * kLabelSd / std::abs(apart);
+}
+
+// How far the power may be from the best choice's: that of any choice that is not improbable.
+double ReachOfChoices(std::span<const LabelChoice> choices, const LabelChoice& best) {
+  constexpr double kImprobable = 0.01;
+  double all = 0.0, farthest = 0.0;
+  const auto probability = [&](const LabelChoice& choice) {
+    return std::exp(choice.ln_probability - best.ln_probability);
+  };
+  for (const LabelChoice& choice : choices) all += probability(choice);
+  for (const LabelChoice& choice : choices) {
+    if (probability(choice) < kImprobable * all) continue;
+    farthest = std::max(farthest, std::abs(choice.factor - best.factor));
+  }
+  return farthest;
 }
 
 }  // namespace
@@ -160,11 +176,15 @@ CodeExposures MeasureCodeExposures(std::span<const std::vector<CodePair>> channe
   const std::vector<LabelChoice> choices =
       LabelChoices({x.data(), joined.size()}, {d.data(), joined.size()});
   const LabelChoice best = *std::ranges::max_element(choices, {}, &LabelChoice::ln_probability);
+  answer.certain = AreCertain(choices);
   double all = 0.0, square = 0.0;
   for (const LabelChoice& choice : choices) {
     const double probability = std::exp(choice.ln_probability - best.ln_probability);
     all += probability;
     square += probability * (choice.factor - best.factor) * (choice.factor - best.factor);
+  }
+  if (!answer.certain || best.odd.empty()) {
+    answer.power_reach = ReachOfChoices(choices, best) / (1.0 + best.factor);
   }
   double scatter = 0.0, spread = 0.0, kept = 0.0;
   for (Eigen::Index at = 0; at < x.size(); ++at) {

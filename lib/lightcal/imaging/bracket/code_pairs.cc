@@ -164,7 +164,7 @@ void MakeIncreasing(Eigen::VectorXd& g) {
 }
 
 std::vector<CodePair> Neighbours(std::span<const CodePair> pairs,
-                                 std::span<const double> ln_exposure) {
+                                 std::span<const double> ln_exposure, bool bending) {
   std::vector<std::size_t> order(ln_exposure.size()), rank(order.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return ln_exposure[i]; });
@@ -174,7 +174,7 @@ std::vector<CodePair> Neighbours(std::span<const CodePair> pairs,
     const double ln_ratio = ln_exposure[pair.second] - ln_exposure[pair.first];
     const bool neighbours =
         rank[pair.first] + 1 == rank[pair.second] || rank[pair.second] + 1 == rank[pair.first];
-    if (neighbours && std::abs(ln_ratio) >= kLeastLnRatio) chosen.push_back(pair);
+    if (neighbours && (!bending || std::abs(ln_ratio) >= kLeastLnRatio)) chosen.push_back(pair);
   }
   return chosen;
 }

@@ -72,9 +72,9 @@ struct CurveEquations {
 // The nearest increasing curve: neighbours that fall are replaced by their mean.
 void MakeIncreasing(Eigen::VectorXd& g);
 
-// Of the pairs, those of neighbours in exposure that differ enough to bend a curve.
+// Of the pairs, those of neighbours in exposure; `bending`: that differ enough to bend a curve.
 [[nodiscard]] std::vector<CodePair> Neighbours(std::span<const CodePair> pairs,
-                                               std::span<const double> ln_exposure);
+                                               std::span<const double> ln_exposure, bool bending);
 
 // The curve that the pairs tell with these exposures.
 [[nodiscard]] Eigen::VectorXd CurveOf(std::span<const CodePair> pairs,

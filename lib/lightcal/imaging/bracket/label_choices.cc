@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <utility>
 
@@ -14,8 +15,7 @@ namespace lightcal {
 namespace {
 
 constexpr double kOddSd = std::numbers::ln2;  // of a label that is odd: a stop
-constexpr double kOddShare = 0.01;            // of all labels
-constexpr double kCertain = 0.9;
+constexpr double kOddShare = 0.03;            // of all labels: judgement
 
 struct PowerPrior {
   double sd = 0.0;  // 0: any power is as good
@@ -76,6 +76,23 @@ std::vector<LabelChoice> LabelChoices(std::span<const double> labels,
   return choices;
 }
 
+bool AreCertain(std::span<const LabelChoice> choices) {
+  const double most =
+      std::ranges::max_element(choices, {}, &LabelChoice::ln_probability)->ln_probability;
+  double all = 0.0, none = 0.0;
+  std::map<std::size_t, double> odd;
+  for (const LabelChoice& choice : choices) {
+    const double probability = std::exp(choice.ln_probability - most);
+    all += probability;
+    if (choice.odd.empty()) none += probability;
+    for (const std::size_t i : choice.odd) odd[i] += probability;
+  }
+  const auto known = [&](double one) {
+    return one < (1.0 - kCertainLabel) * all || one > kCertainLabel * all;
+  };
+  return known(none) && std::ranges::all_of(odd, [&](const auto& of) { return known(of.second); });
+}
+
 WeighedLabels WeighLabels(std::span<const double> ln_label, std::span<const double> ln_measured,
                           const std::vector<bool>& measured, const CurvePower& power) {
   WeighedLabels weighed;
@@ -99,12 +116,9 @@ WeighedLabels WeighLabels(std::span<const double> ln_label, std::span<const doub
     return std::exp(choice.ln_probability - most);
   };
   double all = 0.0, of_odd_curve = 0.0;
-  std::vector<double> odd(joined.size() + 1, 0.0);  // of each label, and of none
   for (const LabelChoice& choice : choices) {
     all += probability(choice);
     of_odd_curve += choice.odd_curve ? probability(choice) : 0.0;
-    for (const std::size_t i : choice.odd) odd[i] += probability(choice);
-    if (choice.odd.empty()) odd.back() += probability(choice);
   }
   // Of the likelier curve the choices together: of two labels that are as odd, half of each.
   const bool odd_curve = of_odd_curve > 0.5 * all;
@@ -129,9 +143,7 @@ WeighedLabels WeighLabels(std::span<const double> ln_label, std::span<const doub
   weighed.gauge_sd = std::sqrt(gauge / all);
   weighed.power_sd = std::sqrt(slope / all);
   weighed.certain =
-      std::ranges::all_of(
-          odd, [&](double one) { return one < (1.0 - kCertain) * all || one > kCertain * all; }) &&
-      std::abs(of_odd_curve - 0.5 * all) > (kCertain - 0.5) * all;
+      AreCertain(choices) && std::abs(of_odd_curve - 0.5 * all) > (kCertainLabel - 0.5) * all;
   weighed.off.assign(off.data(), off.data() + n);
   return weighed;
 }

@@ -30,6 +30,10 @@ struct LabelChoice {
                                                     std::span<const double> differences,
                                                     const std::optional<CurvePower>& power = {});
 
+// Whether of each label, and of none, it is known to nine tenths that it is odd or that it is not.
+inline constexpr double kCertainLabel = 0.9;
+[[nodiscard]] bool AreCertain(std::span<const LabelChoice> choices);
+
 // Labels weighed beside exposures that were measured through a curve that is stated.
 struct WeighedLabels {
   std::vector<double> off;  // ln of each exposure less its label's

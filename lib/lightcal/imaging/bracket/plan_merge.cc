@@ -135,10 +135,12 @@ Result<void> ChooseNoise(const SampledSignals& signals, const MergeRequest& requ
   return {};
 }
 
-// The standard deviation of ln(level) over all that a bracket of codes sees, each as often.
-double SpreadOfLevels(const MergePlan& plan) {
-  return std::log(plan.exposure.back() / plan.exposure.front() / kEncodedFloor) / std::sqrt(12.0);
+// All of ln(level) that a bracket of codes sees, and its standard deviation, each level as often.
+// An anchor may be at either end, so two sigma of a power's reach are what it does over all of it.
+double RangeOfLevels(const MergePlan& plan) {
+  return std::log(plan.exposure.back() / plan.exposure.front() / kEncodedFloor);
 }
+double SpreadOfLevels(const MergePlan& plan) { return RangeOfLevels(plan) / std::sqrt(12.0); }
 
 // Frames whose samples are all the same as another's: the same file twice.
 std::vector<bool> Duplicates(const SampledSignals& signals) {
@@ -195,6 +197,14 @@ Result<void> CheckDark(const SampledSignals& signals, const PlannedMerge& planne
     if (static_cast<double>(seen) >= needed) return {};
   }
   return AllBlack(frames.back().name);
+}
+
+tl::unexpected<Error> LabelsTellNothing(const std::string& frame) {
+  return Refused("exposures_disagree", frame,
+                 "beside each other the frames were not exposed as their tags or {merge.exposures} "
+                 "say, and which exposure is wrong they tell so little that the picture would be "
+                 "anything; check the exposures, take more frames, or state a curve that was kept "
+                 "from another bracket ({merge.response})");
 }
 
 template <class T>
@@ -370,7 +380,11 @@ Result<PlannedMerge> PlanMerge(std::vector<SignalFrame>& frames, const MergeRequ
                          planned.plan.exposure.back());
       errors.misfit = std::min(errors.misfit, kMostMisfit);
     }
-    errors.misfit = std::hypot(errors.misfit, ratios->power_sd * SpreadOfLevels(planned.plan));
+    constexpr double kMostOfReach = 2.5;  // sigma as a share of the picture
+    const double of_reach = 0.5 * request.power_reach * RangeOfLevels(planned.plan);
+    if (of_reach > kMostOfReach) return LabelsTellNothing(frames.front().name);
+    errors.misfit =
+        std::hypot(errors.misfit, ratios->power_sd * SpreadOfLevels(planned.plan), of_reach);
     planned.plan.encoded = std::make_shared<const EncodedErrors>(std::move(errors));
   }
   return planned;

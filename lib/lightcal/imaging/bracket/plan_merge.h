@@ -19,7 +19,7 @@ struct MergeRequest {
   std::vector<double> label_exposure;
   bool keep_labels = false;  // exposures were found with the response of codes, or are not asked
   bool stated_response = false;                          // of codes: not found from the frames
-  double power_sd = 0.0;                                 // of encoded frames: CodeExposures
+  double power_sd = 0.0, power_reach = 0.0;              // of encoded frames: CodeExposures
   std::optional<NoiseProfile> noise;                     // known for all frames; else
   std::vector<std::vector<NoiseProfile>> noise_in_file;  // of each frame, may be empty
   bool noise_of_camera = false;  // the latter comes from a camera's profile, not from the files

@@ -137,6 +137,8 @@ Result<void> FindResponse(const BracketMergeRequest& request, PreparedFrames& pr
   prepared.response = std::move(recovered->curves);
   prepared.label_errors = std::move(recovered->exposures.off);
   merge.power_sd = recovered->exposures.power_sd;
+  merge.power_reach = recovered->exposures.power_reach;
+  prepared.labels_certain = recovered->exposures.certain;
   for (std::size_t i = 0; i < merge.label_exposure.size(); ++i) {
     merge.label_exposure[i] = std::exp(recovered->exposures.ln_exposure[i]);
   }
@@ -144,6 +146,16 @@ Result<void> FindResponse(const BracketMergeRequest& request, PreparedFrames& pr
 }
 
 Result<void> NameOddLabels(const PreparedFrames& prepared, Warnings& warnings) {
+  if (!prepared.labels_certain) {
+    warnings.push_back(
+        {"labels_disagree", prepared.frames.front().info.file,
+         "beside each other the frames were not exposed as their tags or {merge.exposures} say, "
+         "and "
+         "which exposure is wrong they do not tell where their curve is not known either: sigma "
+         "holds each of these; take more frames, check the exposures, or state a curve "
+         "that was kept from such a bracket ({merge.response})"});
+    return {};
+  }
   for (std::size_t i = 0; i < prepared.label_errors.size(); ++i) {
     auto named = NameOddLabel(prepared.label_errors[i], prepared.frames[i].info.file, warnings);
     if (!named) return named;

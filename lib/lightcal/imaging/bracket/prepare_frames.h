@@ -26,6 +26,7 @@ struct PreparedFrames {
   Thinning thinning;
   ResponseCurves response;
   std::vector<double> label_errors;  // CodeExposures::off of each frame, where they were measured
+  bool labels_certain = true;        // CodeExposures::certain
   std::vector<SignalFrame> signals;
   PlannedMerge planned;
   std::optional<FrameAlignment> alignment;

@@ -180,7 +180,7 @@ Result<RecoveredResponse> RecoverResponse(std::span<const Frame> frames,
   recovered.exposures = MeasureCodeExposures(*pairs, steps, exposure);
   const std::vector<double>& ln_exposure = recovered.exposures.ln_exposure;
   for (std::size_t c = 0; c < pairs->size(); ++c) {
-    const std::vector<CodePair> neighbours = Neighbours((*pairs)[c], ln_exposure);
+    const std::vector<CodePair> neighbours = Neighbours((*pairs)[c], ln_exposure, true);
     if (!SharesEnough(neighbours)) {
       return NoResponse(info.file, "the frames share too few codes to tell the camera's curve");
     }
