@@ -83,6 +83,26 @@ for width in (4.0, 8.0, 16.0):
     print(f"a smooth glow of {width:g} degrees: scale {said['scale']['factor']:.3f} of the truth, {warned}")
     assert abs(said["scale"]["factor"] - 1) < 0.02 and "maybe_clipped" not in warned, said["scale"]
 
+# A lamp whose middle lies on the border of two rows has two pixels alike, and hardly any just below where it is small;
+# nor does a nearly white one of a single pixel end there, of whose channels eight bits make two alike.
+def small_lamp(middle, width, colour):
+    glow = 300 * np.exp(-0.5 * (((np.arange(2 * H) - middle[1]) / width) ** 2 + ((np.arange(H)[:, None] - middle[0]) / width) ** 2))
+    return SKY[..., None] * BLUE / 6000 + glow[..., None] * np.array(colour)
+
+
+for name, middle, width, colour in (("tie", (31.5, 170.2), 2.6, (1.0, 0.95, 0.8)),
+                                    ("alike", (31.3, 170.2), 1.2, (1.0, 0.999, 0.8))):
+    pixels = small_lamp(middle, width, colour)
+    write_radiance(HOME / f"{name}.hdr", pixels)
+    said = answer("dome", HOME / f"{name}.hdr", "--lux", f"{up(pixels @ Y709):.6g}", "-o", HOME / name)
+    print(f"a lamp of {width} pixels, {name}: scale {said['scale']['factor']:.3f} of the truth")
+    assert abs(said["scale"]["factor"] - 1) < 0.02, said["scale"]
+    # Cut off at six tenths it is still found, white or in the camera's white.
+    for end in (pixels.max() * 0.6, pixels.reshape(-1, 3).max(0) * 0.6):
+        write_radiance(HOME / f"{name}.hdr", np.minimum(pixels, end))
+        said = answer("dome", HOME / f"{name}.hdr", "--lux", f"{up(pixels @ Y709):.6g}", "-o", HOME / f"{name}cut")
+        assert "maybe_clipped" in [w["code"] for w in said["warnings"]], (name, end)
+
 # A merge knows what it clipped: of its picture, in cd/m2, the sun is what the reading leaves over the sky.
 sun = sun_at(100.5, 40.5)
 for i, time in enumerate((1.0, 4.0)):

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 
@@ -10,19 +11,27 @@
 
 namespace lightcal {
 
-FlatTop TopOf(std::span<const float> samples) {
-  constexpr float kJustBelow = 0.99F;  // a step of RGBE (eight bits of mantissa: 1/128) or more
+namespace {
+
+FlatTop TopWithin(std::span<const float> samples, float share) {
   FlatTop top;
   if (samples.empty()) return top;
   top.value = *std::ranges::max_element(samples);
   for (const float value : samples) {
     if (value == top.value) {
       ++top.at;
-    } else if (value > kJustBelow * top.value) {
+    } else if (value > share * top.value) {
       ++top.below;
     }
   }
   return top;
+}
+
+}  // namespace
+
+FlatTop TopOf(std::span<const float> samples) {
+  constexpr float kJustBelow = 0.99F;  // a step of RGBE (eight bits of mantissa: 1/128) or more
+  return TopWithin(samples, kJustBelow);
 }
 
 bool IsCutOff(const FlatTop& top, int least) {
@@ -50,8 +59,30 @@ std::vector<std::uint8_t> PixelsFrom(View2d<const float> samples, double level) 
 
 namespace {
 
+// Whether a few pixels at the top are no smooth peak's. Of a peak cut off at a share f of its
+// height ln(1/f) / ln(1/g) times as many lie at the top as in the ring from there down to g of it:
+// more than the ring has means that a tenth and more was cut off. In so few pixels a tie is one of
+// the file's steps as well, of which RGBE has but eight bits.
+bool IsAboveItsRing(std::span<const float> nits) {
+  constexpr float kRing = 0.9F;
+  const FlatTop top = TopWithin(nits, kRing);
+  return top.at > top.below;
+}
+
+// Radiance's pixels share an exponent: the largest of each has eight bits.
+bool HasEightBits(std::span<const float> samples) {
+  for (std::size_t i = 0; i + 2 < samples.size(); i += 3) {
+    const float most = std::max({samples[i], samples[i + 1], samples[i + 2]});
+    int exponent = 0;
+    const float halves = std::ldexp(std::frexp(most, &exponent), 9);
+    if (halves != std::floor(halves)) return false;
+  }
+  return true;
+}
+
 // Whether the one pixel that is brightest ends where a format does, or is as bright as any in two
-// channels alike, which no light is by chance in a picture with colour.
+// channels alike (of RGBE, whose steps tie two in every fifty, in all three), which no light is by
+// chance in a picture with colour.
 bool IsCutOffPixel(std::span<const float> samples, int channels, std::size_t at, float nits) {
   if (IsFormatsEnd(nits)) return true;
   if (channels != 3) return false;
@@ -66,7 +97,7 @@ bool IsCutOffPixel(std::span<const float> samples, int channels, std::size_t at,
     const std::size_t next = (c + 1) % 3;
     if (samples[3 * at + c] == most[c] && most[c] == most[next]) ++alike;
   }
-  return colour && alike > 0;
+  return colour && alike >= (HasEightBits(samples) ? 3 : 1);
 }
 
 // A channel's largest value, where it is cut off there: what is smooth, noisy or of eight bits of
@@ -88,10 +119,13 @@ std::optional<float> ChannelEnd(std::span<const float> samples, std::size_t chan
 std::vector<std::uint8_t> CutOffPixels(std::span<const float> samples, int channels,
                                        std::span<const float> nits) {
   constexpr int kPlateau = 2;  // so many pixels that share the picture's largest value
+  constexpr int kFew = 8;      // of which a smooth peak's may be as many
   const FlatTop top = TopOf(nits);
   const auto at = static_cast<std::size_t>(std::ranges::find(nits, top.value) - nits.begin());
-  const bool cut_off =
-      top.at == 1 ? IsCutOffPixel(samples, channels, at, top.value) : IsCutOff(top, kPlateau);
+  const bool cut_off = top.at == 1
+                           ? IsCutOffPixel(samples, channels, at, top.value)
+                           : IsCutOff(top, kPlateau) &&
+                                 (top.at > kFew || IsFormatsEnd(top.value) || IsAboveItsRing(nits));
   std::vector<std::uint8_t> pixels;
   const auto mark = [&](std::size_t i, bool ends) {
     pixels.resize(nits.size(), 0);
