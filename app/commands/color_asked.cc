@@ -236,6 +236,7 @@ Result<AnsweredColors> AnswerSpectra(const ColorOptions& options, const ColorExt
       continue;
     }
     if (const auto range = WarningOfRange(imported.spectrum, subject)) console.Warn(*range);
+    if (const auto clip = WarningOfClip(imported.spectrum, subject)) console.Warn(*clip);
     if (NamesIlluminant(options.spectrum)) answer->reported.reset();
     if (options.extra.tlci) {
       auto tlci = TlciByArgyll(imported.spectrum);

@@ -81,3 +81,22 @@ write("lamp.csv", LINES, every(5))
 once, often = state_u95(1), state_u95(4)
 print("a state's CCT, read once and four times:", once, often)
 assert often <= 1.001 * once, (once, often)
+
+# An instrument that was full: its top is flat, of figures in full and of three digits; a smooth top that is written in
+# two or three digits is as wide as its steps make it, and light flat to its end, or from nothing to all, is what it is.
+def said_clipped(lamp, digits):
+    rows = "".join(f"{nm:g},{e:.{digits}f}\n" for nm, e in zip(NM, lamp / lamp.max()))
+    (HOME / "top.csv").write_text("wavelength_nm,relative\n" + rows)
+    return "spectrum_clipped" in [w["code"] for w in answer("color", "top.csv").get("warnings", [])]
+
+
+DRIVEN = 0.8 * band(455, 10) + band(580, 50) + 0.02
+for digits in (3, 7):
+    for share in (0.9, 0.7, 0.5):
+        assert said_clipped(np.minimum(DRIVEN, share * DRIVEN.max()), digits), (digits, share)
+for digits in (2, 3, 7):
+    for lamp in (DRIVEN, LED, LINES, BLACK, np.ones(NM.size), np.abs(NM - 550) < 50):
+        assert not said_clipped(np.asarray(lamp, float), digits), digits
+(HOME / "lamp.csv").write_text("wavelength_nm,relative\n" + "".join(f"{nm:g},{min(e, 0.7):.6g}\n" for nm, e in zip(NM, DRIVEN)))
+assert "spectrum_clipped" in [w["code"] for w in answer("fit", HOME)["warnings"]]
+print("a full instrument's flat top is named, a smooth one's steps are not")

@@ -38,6 +38,7 @@ SpectralDoubt DoubtOfFile(const OneSpectrum& one, const Reading& reading, Eviden
     if (warning) evidence.AddWarnings({*warning});
   };
   warn(WarningOfRange(spectrum, reading.spectrum_file));
+  warn(WarningOfClip(spectrum, reading.spectrum_file));
   warn(WarningOfSampling(
       spectrum, *error, reading.spectrum_file,
       "the interval holds what is usual of lamps with lines; give a table of 1 nm, "

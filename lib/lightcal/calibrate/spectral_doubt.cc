@@ -59,6 +59,35 @@ std::optional<Warning> WarningOfRange(const Spectrum& spectrum, const std::strin
                      "rest"};
 }
 
+std::optional<Warning> WarningOfClip(const Spectrum& spectrum, const std::string& subject) {
+  constexpr std::ptrdiff_t kLeastWide = 5;
+  constexpr double kSteps = 20.0, kLeastFall = 0.03, kNothing = 0.05;
+  const std::vector<double>& s = spectrum.values;
+  const auto top = std::ranges::max_element(s);
+  const auto behind = std::find_if(top, s.end(), [&](double v) { return v != *top; });
+  const std::ptrdiff_t wide = behind - top, half = (wide + 1) / 2;
+  if (!(*top > 0.0) || wide < kLeastWide || top - s.begin() < half || s.end() - behind < half) {
+    return std::nullopt;
+  }
+  std::vector<double> sorted = s;
+  std::ranges::sort(sorted);
+  double step = *top;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    const double apart = sorted[i] - sorted[i - 1];
+    if (apart > 1e-9 * *top) step = std::min(step, apart);
+  }
+  const double fall = std::min(*top - *(top - half), *top - *(behind + half - 1));
+  const bool at_once = std::max(*(top - 1), *behind) < kNothing * *top;
+  if (fall < std::max(kSteps * step, kLeastFall * *top) || at_once) return std::nullopt;
+  return Warning{
+      "spectrum_clipped", subject,
+      std::to_string(wide) + " samples from " +
+          Nm(spectrum.wavelengths_nm[static_cast<std::size_t>(top - s.begin())]) +
+          " nm on share its largest value, as if the instrument were full there: colour, "
+          "colour rendering and illuminance lack what is above; measure again with a "
+          "shorter integration time"};
+}
+
 std::optional<Warning> WarningOfSampling(const Spectrum& spectrum, const SpectralError& error,
                                          const std::string& subject, std::string_view remedy) {
   if (!error.undersampled) return std::nullopt;

@@ -26,6 +26,12 @@ struct SpectralDoubt {
 // spectrum_truncated: it ends inside 380-780 nm.
 [[nodiscard]] std::optional<Warning> WarningOfRange(const Spectrum& spectrum,
                                                     const std::string& subject);
+// spectrum_clipped: samples one after the other share the largest value, more than a smooth peak of
+// the file's steps has there: as far beside them as they are half wide it has fallen by twenty
+// steps and 3 %. Nothing of light that is as flat at an end (illuminant E), or falls to nothing at
+// once.
+[[nodiscard]] std::optional<Warning> WarningOfClip(const Spectrum& spectrum,
+                                                   const std::string& subject);
 // undersampled: lines between samples, or the light in a gap, may be lost; with what to do.
 [[nodiscard]] std::optional<Warning> WarningOfSampling(const Spectrum& spectrum,
                                                        const SpectralError& error,
